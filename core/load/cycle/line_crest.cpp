@@ -18,7 +18,7 @@ constexpr double enclosed = 1e-13;
 /// Derivatives along the line are one-sided differences over this part of it, on the side without relief.
 constexpr double along = 1e-3;
 /// How far beside a start the gap's slopes are taken, on the side without relief, as a part of the distance between two points.
-constexpr double beside_start = 1e-6;
+constexpr double beside_start = 1e-9;
 /// Derivatives of distances by extents and by a twist compensation are central differences over this [mm; -]: distances are linear in them.
 constexpr double extent_step = 1e-3;
 /// Likewise by numbers of a misalignment [mm or rad]: places slide in proportion to them.

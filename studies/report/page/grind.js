@@ -71,7 +71,7 @@ function grinding_table(plot, results) {
     body.push(el("tr", { class: "group" }, el("th", { colspan: 2, scope: "rowgroup" }, capital(gear)),
       ...["before", "grind"].map((design) => el("th", { class: "number" }, i === 0 ? design : "")), el("th")));
     for (const row of rows.filter((own) => own.gear === gear)) {
-      const name = NAMES.get(row.key) ?? {}, tells = [name.sense && !/^Legendre/.test(name.sense) ? name.sense : null, relief_start(results, row), row.bound ? `at its ${row.bound} bound` : null,
+      const name = NAMES.get(row.key) ?? {}, tells = [name.sense && !/^Legendre/.test(name.sense) ? name.sense : null, relief_start(results, row), row.bound && row.unit !== "1" ? `at its ${row.bound} bound` : null,
         row.given ? "as given" : null].filter(Boolean).join(", ");
       const moved = !row.given && ground(row.before, row.step) !== ground(row.after, row.step);
       const unit = pretty_unit(row.unit);
@@ -86,7 +86,8 @@ function grinding_table(plot, results) {
   plot.append(el("table", { class: "grinding" },
     el("tbody", {}, ...body)));
   const rounded = record(record(results.optimise).rounded), stepped = results.optimise.rounded !== undefined && is_number(rounded.loss_percent);
-  plot.append(el("p", { class: "fine" }, stepped ? `In the grinder's steps, at a cost of ${fmt(Math.max(0, rounded.loss_percent), 2)} %. ${amounts_count(results)}`
+  const has_steps = grinding_rows(results).some((row) => row.step > 0), made = has_steps ? "In the grinder's steps" : "Without what cannot be ground";
+  plot.append(el("p", { class: "fine" }, stepped ? `${made}, at a cost of ${fmt(Math.max(0, rounded.loss_percent), 2)} %. ${amounts_count(results)}`
     : `Rounded to 0.1 µm and 0.1 mm. ${amounts_count(results)}`));
 }
 

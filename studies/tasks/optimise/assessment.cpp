@@ -205,7 +205,11 @@ std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTa
   for (const Optimum::Scene& scene : optimum.scenes) {
     if (std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, names_torque));
   }
-  for (const Optimum::Bound& bound : optimum.bounds) words.push_back(bound_in_words(bound, optimum, task));
+  for (const Optimum::Bound& bound : optimum.bounds) {
+    const DesignVariable& v = task.variables[static_cast<std::size_t>(bound.variable)];
+    const bool is_all_there_is = describe(v.parameter).kind == ParameterKind::Fraction && (bound.upper ? v.upper == 1.0 : v.lower == 0.0);
+    if (!is_all_there_is) words.push_back(bound_in_words(bound, optimum, task));
+  }
   for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, optimum, task));
   for (const Optimum::Objective& objective : optimum.objectives) words.push_back(objective_in_words(objective, optimum, task));
   for (const Optimum::Sum& sum : optimum.sums) words.push_back(sum_in_words(sum, optimum, task));
