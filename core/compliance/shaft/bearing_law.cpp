@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/compliance/shaft/field_checks.hpp"
+
 namespace flankwright {
 
 namespace {
@@ -15,7 +17,7 @@ bool has_angle(BearingType type) { return type == BearingType::AngularContactBal
 constexpr double largest_angle = 60 * units::deg;
 constexpr int fewest_elements = 3;
 
-class LawChecks {
+class LawChecks : FieldChecks {
  public:
   explicit LawChecks(const BearingLawData& data) : data_(data) {}
 
@@ -33,13 +35,6 @@ class LawChecks {
   }
 
  private:
-  void require(bool holds, const std::string& field, const std::string& value, const std::string& allowed) {
-    if (!holds) found_.emplace_back(field, value, allowed);
-  }
-  void require(bool holds, const std::string& field, double value, const std::string& allowed) {
-    require(holds, field, std::isnan(value) ? "(not given)" : in_words(value), allowed);
-  }
-
   /// Names the first value that is not above the one before it.
   void check_column(const std::string& field, const std::vector<double>& values, double unit, const std::string& unit_name) {
     if (values.empty()) return require(false, field, "(not given)", "as many numbers as the other column of the table has");
@@ -85,7 +80,6 @@ class LawChecks {
   }
 
   const BearingLawData& data_;
-  std::vector<InvalidInput> found_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "core/compliance/shaft/unit_statics.hpp"
 #include "core/compliance/shaft/unit_supports.hpp"
+#include "core/compliance/shaft/field_checks.hpp"
 
 namespace flankwright {
 
@@ -14,7 +15,7 @@ namespace {
 
 std::string in_mm(double length) { return in_words(length) + " mm"; }
 
-class Checking {
+class Checking : FieldChecks {
  public:
   Checking(const ShaftsOfPair& shafts, const GearPair& pair) : shafts_(shafts), unit_(shafts.unit), pair_(pair), all_(shafts.all()) {}
 
@@ -29,13 +30,6 @@ class Checking {
   }
 
  private:
-  void require(bool holds, const std::string& field, const std::string& value, const std::string& allowed) {
-    if (!holds) found_.emplace_back(field, value, allowed);
-  }
-  void require(bool holds, const std::string& field, double value, const std::string& allowed) {
-    require(holds, field, std::isnan(value) ? "(not given)" : in_words(value), allowed);
-  }
-
   void check_shafts() {
     for (std::size_t i = 0; i < all_.size(); ++i) {
       const std::string name = shafts_.names()[i];
@@ -210,7 +204,6 @@ class Checking {
   const UnitData& unit_;
   const GearPair& pair_;
   std::vector<const ShaftData*> all_;
-  std::vector<InvalidInput> found_;
 };
 
 }  // namespace

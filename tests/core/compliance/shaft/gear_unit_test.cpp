@@ -6,6 +6,7 @@
 #include "core/compliance/shaft/bearing_clearance.hpp"
 #include "core/compliance/shaft/unit_checks.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/compliance/shaft/pitch_point_lag.hpp"
 
 using namespace flankwright;
 
@@ -211,13 +212,7 @@ TEST_CASE("Linearised shafts are tangent to those with clearance", "[core][compl
                                    {.position = 255, .radial_stiffness = 3e5, .radial_clearance = 0.02}};
   const GearPair pair = second_stage();
   const ShaftPair unit(pair, shafts, on_shafts);
-  ContactPoint pitch;
-  const PathOfContact path(pair);
-  pitch.phase = (pair.pitch_point - path.roll_at_start) / path.base_pitch;
-  const auto lag = [&](const ShaftPair& at, double torque) {
-    const Eigen::VectorXd force = Eigen::VectorXd::Constant(1, torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)));
-    return at.motion(Member::Pinion, {pitch}, force, 0.0).displacement;
-  };
+  const auto lag = [&](const ShaftPair& at, double torque) { return lag_at_pitch_point(at, pair, torque); };
   const double T = 1e6;
   const ShaftPair tangent = unit.at_torque(T);
   double before = 0.0;

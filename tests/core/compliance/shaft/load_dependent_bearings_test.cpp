@@ -5,6 +5,7 @@
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "core/compliance/shaft/unit_checks.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/compliance/shaft/pitch_point_lag.hpp"
 
 using namespace flankwright;
 
@@ -184,13 +185,7 @@ TEST_CASE("Shafts linearised on their laws are tangent to the true ones", "[core
                                   {.position = 115, .law = rollers()},
                                   {.position = 255, .radial_stiffness = 3e5, .radial_clearance = 0.02}});
   const GearPair pair = helical_pair();
-  ContactPoint pitch;
-  const PathOfContact path(pair);
-  pitch.phase = (pair.pitch_point - path.roll_at_start) / path.base_pitch;
-  const auto lag = [&](const ShaftPair& at, double torque) {
-    const Eigen::VectorXd force = Eigen::VectorXd::Constant(1, torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)));
-    return at.motion(Member::Pinion, {pitch}, force, 0.0).displacement;
-  };
+  const auto lag = [&](const ShaftPair& at, double torque) { return lag_at_pitch_point(at, pair, torque); };
   const double T = 1e6;
   const ShaftPair tangent = unit.at_torque(T);
   CHECK(lag(tangent, T) == Approx(lag(unit.at_torque(T), T)).epsilon(by_load_round_off));
