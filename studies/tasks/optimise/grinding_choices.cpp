@@ -94,7 +94,7 @@ void check_smallest(StudyReading& reading) {
 
 const char* words_of(HeldAmount held) { return held == HeldAmount::AtZero ? "at zero" : held == HeldAmount::AtLeast ? "at least" : "at most"; }
 
-/// "at 0 (pinion tip relief)": what an alternative holds.
+/// What an alternative holds: "0", "at least 3 um", "without tip relief".
 std::string alternative_in_words(const GrindingChoice& choice, const GrindingAlternative& tried) {
   const GrindingChoice::Amount& held = choice.amounts[tried.amount];
   if (choice.is_of_pair()) return "without " + std::string(describe(held.parameter).name);
