@@ -1,7 +1,7 @@
 #pragma once
 
+#include "core/compliance/finite_element/loaded_section.hpp"
 #include "core/compliance/tooth/half_space_correction.hpp"
-#include "core/gear/pair_geometry.hpp"
 
 namespace flankwright {
 
@@ -21,11 +21,8 @@ namespace flankwright {
 ///
 /// Solved for at heights of 0.05 to 0.97 of the flank, extrapolated to 0.99, and level beyond.
 ///
-/// The section is that of the equivalent spur gear (z_n, rounded, with the gear's own normal profile and tip height) and its face b/cos(beta_b).
-///
-/// @param gear            of the pair; teeth, profile, tip and face are used
-/// @param pair            m_n, alpha_n and beta_b
-/// @param poissons_ratio  0 .. < 0.5
-HalfSpaceCorrection solve_half_space_correction(const Gear& gear, const GearPair& pair, double poissons_ratio);
+/// @param section  of the gear, with fine_section()
+/// @param gear     its flank's radii are used
+HalfSpaceCorrection half_space_correction(const LoadedSection& section, const Gear& gear);
 
 }  // namespace flankwright

@@ -33,6 +33,7 @@ struct GearRun {
   std::string file;                                    ///< where it is kept; empty: nowhere
   double seconds{not_given};                           ///< wall time in this build
   std::shared_ptr<const RimMotionTable> rim_motion{};  ///< null: a solid disc
+  GearMeshOptions mesh{};                              ///< its elements
 };
 
 struct FiniteElementRuns {
@@ -49,10 +50,8 @@ struct FiniteElementRuns {
   const std::optional<GearRun>& fine_run(Member m) const { return fine[m == Member::Pinion ? 0 : 1]; }
   const std::optional<GearRun>& narrow_run(Member m) const { return narrow[m == Member::Pinion ? 0 : 1]; }
   const std::optional<GearRun>& rigid_body_run(Member m) const { return rigid_body[m == Member::Pinion ? 0 : 1]; }
-  /// Of the finest run with the gear's own face; null where the task does not want it.
-  const std::shared_ptr<const RootStressTable>& root_stress(Member m) const {
-    return fine_run(m) && !narrow_run(m) ? fine_run(m)->root_stress : (*this)[m].root_stress;
-  }
+  /// The run whose root stress counts: the finest with the gear's own face.
+  const GearRun& root_stress_run(Member m) const { return fine_run(m) && !narrow_run(m) ? *fine_run(m) : (*this)[m]; }
 };
 
 /// Solves both gears or takes them from the store. Gears that are alike but for their size are solved once; two that

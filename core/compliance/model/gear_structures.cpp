@@ -6,16 +6,35 @@ namespace flankwright {
 
 namespace {
 
-HalfSpaceCorrections half_space_corrections(const ComplianceTask& task, const ComplianceBuild& build) {
-  HalfSpaceCorrections corrections;
-  const auto solve = [&](Member member) {
-    corrections[member] =
-        std::make_shared<const HalfSpaceCorrection>(solve_half_space_correction(task.pair[member], task.pair, task.material[member].poissons_ratio));
-  };
-  const auto solve_gear = [&](std::size_t i) { solve(i == 0 ? Member::Pinion : Member::Wheel); };
-  run_for_each(build.for_each, 2, solve_gear);
-  return corrections;
-}
+/// What the gears' teeth do in their sections.
+class Sections {
+ public:
+  Sections(const ComplianceTask& task, const FiniteElementRuns& runs, const ComplianceBuild& build) : task_(task) {
+    const auto solve = [&](std::size_t i) {
+      const Member member = i == 0 ? Member::Pinion : Member::Wheel;
+      fine_[member] = solved(member, fine_section());
+      if (runs.root_stress_run(member).root_stress) as_table_[member] = solved(member, runs.root_stress_run(member).mesh);
+    };
+    run_for_each(build.for_each, 2, solve);
+  }
+
+  std::shared_ptr<const HalfSpaceCorrection> half_space(Member member) const {
+    return std::make_shared<const HalfSpaceCorrection>(half_space_correction(*fine_[member], task_.pair[member]));
+  }
+  GearRootStress root_stress(Member member, const RootStressTable& table) const {
+    auto correction = std::make_shared<const RootStressCorrection>(*fine_[member], *as_table_[member], task_.pair[member], task_.pair, table.fillet);
+    return {std::make_shared<const RootStressTable>(correction->scaled(table)), correction};
+  }
+
+ private:
+  std::shared_ptr<const LoadedSection> solved(Member member, const GearMeshOptions& mesh) const {
+    return std::make_shared<const LoadedSection>(task_.pair[member], task_.pair, task_.material[member].poissons_ratio, mesh,
+                                                 influence_table_task(task_, member).gear.body);
+  }
+
+  const ComplianceTask& task_;
+  PerGear<std::shared_ptr<const LoadedSection>> fine_, as_table_;
+};
 
 }  // namespace
 
@@ -26,10 +45,10 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
   structures.finite_elements = solve_finite_elements(task, build);
   structures.notes = library_notes(task);
   const FiniteElementRuns& runs = *structures.finite_elements;
+  const Sections sections(task, runs, build);
   if (is_structural) {
-    const HalfSpaceCorrections half_space = half_space_corrections(task, build);
     const auto structure = [&](Member member, const Material& material) {
-      GearStructure result{.compliance = runs[member].table, .youngs_modulus = material.youngs_modulus, .half_space = half_space[member]};
+      GearStructure result{.compliance = runs[member].table, .youngs_modulus = material.youngs_modulus, .half_space = sections.half_space(member)};
       if (const auto& rigid = runs.rigid_body_run(member)) result.on_rigid_body = rigid->table;
       if (task.model == ComplianceModel::Fitted) {
         auto& correction = structures.refinements[member == Member::Pinion ? 0 : 1];
@@ -52,8 +71,9 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
                                                  {runs[Member::Wheel].rim_motion, task.material.wheel.youngs_modulus}});
     }
   }
-  if (const auto& pinion = runs.root_stress(Member::Pinion)) {
-    structures.root_stress = std::make_shared<const TabulatedRootStress>(task.pair, pinion, runs.root_stress(Member::Wheel));
+  if (const auto& pinion = runs.root_stress_run(Member::Pinion).root_stress) {
+    structures.root_stress = std::make_shared<const TabulatedRootStress>(task.pair, sections.root_stress(Member::Pinion, *pinion),
+                                                                         sections.root_stress(Member::Wheel, *runs.root_stress_run(Member::Wheel).root_stress));
   }
   return structures;
 }

@@ -1,6 +1,8 @@
 #include "core/compliance/pair/pair_root_stress.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -36,6 +38,12 @@ std::vector<Eigen::VectorXd> RootStressInfluence::components(const std::vector<c
       result[uses[k].position].segment(3 * uses[k].first_station, table->rows()) += stress.col(static_cast<Eigen::Index>(k));
     }
   }
+  for (std::size_t p = 0; p < positions.size(); ++p) {
+    for (const Added& a : positions[p]->added_) {
+      const Eigen::VectorXd across = a.stress * forces[p].segment(a.first_point, a.stress.cols());
+      result[p].segment(3 * a.first_station, 3 * across.size()).reshaped(3, across.size()) += *a.components * across.asDiagonal();
+    }
+  }
   return result;
 }
 
@@ -49,7 +57,25 @@ Eigen::Matrix3Xd RootStressInfluence::components_of(Eigen::Index station) const 
     const Forces& f = forces_[r.forces];
     result.middleCols(f.begin, f.weights.cols()).noalias() += r.table->middleRows<3>(row) * f.weights;
   }
+  for (const Added& a : added_) {
+    const Eigen::Index place = station - a.first_station;
+    if (place >= 0 && place < a.stress.rows()) result.middleCols(a.first_point, a.stress.cols()) += a.components->col(place) * a.stress.row(place);
+  }
   return result;
+}
+
+TabulatedRootStress::TabulatedRootStress(const GearPair& pair, GearRootStress pinion, GearRootStress wheel)
+    : pair_(pair), gears_{std::move(pinion), std::move(wheel)} {
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    const auto& [table, correction] = gears_[member];
+    if (!correction) continue;
+    const auto across = std::ssize(table->fillet.zetas);
+    Eigen::Matrix3Xd components(3, table->fillet.size());
+    for (std::size_t i = 0; i < correction->places().size(); ++i) {
+      components.middleCols(static_cast<Eigen::Index>(i) * across, across).colwise() = correction->places()[i].components;
+    }
+    components_[member] = std::make_shared<const Eigen::Matrix3Xd>(std::move(components));
+  }
 }
 
 RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoint>& points, double axial_offset) const {
@@ -60,16 +86,26 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
   std::vector<RootStation> stations;
   std::vector<RootStressInfluence::Forces> forces;
   std::vector<RootStressInfluence::Response> responses;
+  std::vector<RootStressInfluence::Added> added;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    const std::shared_ptr<const RootStressTable>& table = member == Member::Pinion ? pinion_ : wheel_;
+    const auto& [table, correction] = gears_[member];
+    std::map<int, RootStressInfluence::Added> of_pair;  // of the tooth pairs
     const std::size_t first = forces.size();
     std::vector<int> loaded_teeth;  // counted on the gear, one for every new entry of `forces`
     for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
       while (end < points.size() && points[end].tooth == points[begin].tooth) ++end;
       Eigen::MatrixXd weights(table->grid.size(), static_cast<Eigen::Index>(end - begin));
+      std::vector<FlankStation> places;
+      std::vector<double> lengths;
       for (std::size_t i = begin; i < end; ++i) {
-        weights.col(static_cast<Eigen::Index>(i - begin)) =
-            per_unit_module * table->grid.weights(flank_station(pair_, member, points[i], axial_offset));
+        places.push_back(flank_station(pair_, member, points[i], axial_offset));
+        lengths.push_back(points[i].weight / pair_.data.normal_module);
+        weights.col(static_cast<Eigen::Index>(i - begin)) = per_unit_module * table->grid.weights(places.back());
+      }
+      if (correction) {
+        of_pair[points[begin].tooth] = {0, static_cast<Eigen::Index>(begin),
+                                        per_unit_module * correction->added(table->fillet, places, lengths, std::cos(pair_.base_helix_angle)),
+                                        components_[member]};
       }
       loaded_teeth.push_back(gear_tooth(member, points[begin].tooth));
       forces.push_back({static_cast<Eigen::Index>(begin), std::move(weights)});
@@ -79,6 +115,11 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
         const Eigen::MatrixXd* response = table->response(gear_tooth(member, tooth), loaded_teeth[k]);
         if (response) responses.push_back({std::ssize(stations), first + k, {table, response}});
       }
+      if (correction) {
+        RootStressInfluence::Added& own = of_pair.at(tooth);
+        own.first_station = std::ssize(stations);
+        added.push_back(std::move(own));
+      }
       for (std::size_t i = 0; i < table->fillet.along.size(); ++i) {
         for (const double zeta : table->fillet.zetas) {
           stations.push_back({member, tooth, table->fillet.along[i], axial_position(pair_, member, zeta, axial_offset), i == table->fillet.tangent});
@@ -86,7 +127,7 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
       }
     }
   }
-  return {std::move(stations), std::ssize(points), std::move(forces), std::move(responses)};
+  return {std::move(stations), std::ssize(points), std::move(forces), std::move(responses), std::move(added)};
 }
 
 }  // namespace flankwright

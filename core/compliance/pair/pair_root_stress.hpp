@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/compliance/finite_element/root_stress_table.hpp"
+#include "core/compliance/finite_element/root_stress_correction.hpp"
 #include "core/contact/path/contact_points.hpp"
 
 namespace flankwright {
@@ -38,9 +38,16 @@ class RootStressInfluence {
     std::size_t forces{0};                         ///< which of the Forces
     std::shared_ptr<const Eigen::MatrixXd> table;  ///< (s_tt, s_aa, s_ta) of every point, three rows each, x forces of the table [MPa/N]
   };
+  /// What the points of a tooth add to its own fillet beside the table, RootStressCorrection::added(): one component of stress.
+  struct Added {
+    Eigen::Index first_station{0}, first_point{0};
+    Eigen::MatrixXd stress;                                   ///< places x points [MPa/N]
+    std::shared_ptr<const Eigen::Matrix3Xd> components{};  ///< (s_tt, s_aa, s_ta) of a unit of it at every place
+  };
   /// @param points  n
-  RootStressInfluence(std::vector<RootStation> of_places, Eigen::Index points, std::vector<Forces> forces, std::vector<Response> responses)
-      : stations(std::move(of_places)), points_(points), forces_(std::move(forces)), responses_(std::move(responses)) {}
+  RootStressInfluence(std::vector<RootStation> of_places, Eigen::Index points, std::vector<Forces> forces, std::vector<Response> responses,
+                      std::vector<Added> added = {})
+      : stations(std::move(of_places)), points_(points), forces_(std::move(forces)), responses_(std::move(responses)), added_(std::move(added)) {}
   RootStressInfluence() = default;
 
   /// (s_tt, s_aa, s_ta) of every fillet point, three rows each, see FilletStress [MPa].
@@ -58,6 +65,7 @@ class RootStressInfluence {
   Eigen::Index points_{0};
   std::vector<Forces> forces_;
   std::vector<Response> responses_;
+  std::vector<Added> added_;
 };
 
 /// Root stress of a pair of gears by any model: the interface of the load distribution, beside PairCompliance.
@@ -78,23 +86,29 @@ class PairRootStress {
   PairRootStress& operator=(const PairRootStress&) = default;
 };
 
+/// Root stress of one gear.
+struct GearRootStress {
+  std::shared_ptr<const RootStressTable> table;
+  std::shared_ptr<const RootStressCorrection> correction{};  ///< of a table that is scaled() by it; null: none
+};
+
 /// From the tables of both gears.
 class TabulatedRootStress final : public PairRootStress {
  public:
-  TabulatedRootStress(const GearPair& pair, std::shared_ptr<const RootStressTable> pinion, std::shared_ptr<const RootStressTable> wheel)
-      : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
+  TabulatedRootStress(const GearPair& pair, GearRootStress pinion, GearRootStress wheel);
   RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
 
   /// Needs bodies as StructuralPair::on_other_flanks().
   std::shared_ptr<const PairRootStress> on_other_flanks() const override {
-    return std::make_shared<const TabulatedRootStress>(pair_.on_other_flanks(), pinion_, wheel_);
+    return std::make_shared<const TabulatedRootStress>(pair_.on_other_flanks(), gears_.pinion, gears_.wheel);
   }
 
-  const RootStressTable& operator[](Member m) const { return m == Member::Pinion ? *pinion_ : *wheel_; }
+  const RootStressTable& operator[](Member m) const { return *gears_[m].table; }
 
  private:
   GearPair pair_;
-  std::shared_ptr<const RootStressTable> pinion_, wheel_;
+  PerGear<GearRootStress> gears_;
+  PerGear<std::shared_ptr<const Eigen::Matrix3Xd>> components_;  ///< RootStressInfluence::Added::components
 };
 
 }  // namespace flankwright

@@ -9,7 +9,7 @@ namespace flankwright {
 
 /// What one gear's tooth yields beyond the sum of its structure and of the half space that the contact law has around the contact, per unit line
 /// load [w/E, dimensionless], as a function of the height on its flank. It is smooth, does not depend on the load, and rises towards the tip, where
-/// the half space is least true; see solve_half_space_correction().
+/// the half space is least true; see half_space_correction().
 class HalfSpaceCorrection {
  public:
   /// @param form_radius, tip_radius  of the flank [mm]

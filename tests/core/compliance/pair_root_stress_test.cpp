@@ -48,7 +48,7 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
   const GearPair pair = make_gear_pair(data);
   const std::vector<ContactPoint> points =
       contact_points(pair, PathOfContact(pair), {QuadratureRule::Gauss2, 3}, 0.8, false, -kStressWidth / 2, kStressWidth / 2);
-  const TabulatedRootStress stress(pair, telltale(kStressWidth), telltale(kStressWidth + 8));
+  const TabulatedRootStress stress(pair, {telltale(kStressWidth)}, {telltale(kStressWidth + 8)});
   const RootStressInfluence found = stress.influence(points, offset);
   // All places together under arbitrary forces are what the places are one by one.
   const Eigen::VectorXd forces = Eigen::VectorXd::LinSpaced(std::ssize(points), 1.0, 2.0);
