@@ -85,7 +85,8 @@ Eigen::VectorXd deflection(const SectionMesh& mesh, const SectionTooth& tooth, c
 /// 1, z', z'^2 are closed.
 class FaceFunctional {
  public:
-  FaceFunctional(const SectionMesh& mesh, const SectionTooth& tooth, const SectionPlace& at) : mesh_(mesh), depth_(at.centre_depth), direction_(-at.normal) {
+  FaceFunctional(const SectionMesh& mesh, const SectionTooth& tooth, const SectionPlace& at)
+      : mesh_(mesh), depth_(at.centre_depth), direction_(-at.normal) {
     const Eigen::Vector2d source = at.position - (1 - source_height) * depth_ * at.normal, across(at.normal.y(), -at.normal.x());
     for (const SectionEdge& edge : tooth.centre_line) {
       const Edge nodes = nodes_of(mesh, edge);

@@ -86,7 +86,8 @@ class SectionFillet {
 /// (s_tt, s_aa, s_ta) of a unit stress across a helical tooth with nu along it. The tooth's direction in the fillet is -sin(delta) t + cos(delta) a.
 /// @param tangent  in the section across the tooth
 Eigen::Vector3d across_tooth(const Eigen::Vector2d& tangent, double radius_share, double helix_angle, double nu) {
-  const double steepness = std::atan2(std::abs(tangent.x()), std::abs(tangent.y()) * std::cos(helix_angle));  // of the transverse tangent against the centre line
+  const double steepness =
+      std::atan2(std::abs(tangent.x()), std::abs(tangent.y()) * std::cos(helix_angle));  // of the transverse tangent against the centre line
   const double helix = std::atan(radius_share * std::tan(helix_angle));
   const double sine = std::sin(helix) * std::sin(steepness), cosine = std::sqrt(1 - sine * sine);
   return {cosine * cosine + nu * sine * sine, sine * sine + nu * cosine * cosine, (1 - nu) * sine * cosine};
@@ -115,7 +116,8 @@ RootStressCorrection::RootStressCorrection(const LoadedSection& fine, const Load
       distance.push_back((fine.places[i].position - position).norm());
     }
     places_.push_back({factor, NaturalSpline(heights, added), NaturalSpline(heights, distance),
-                       across_tooth(tangent, 1 + (position.norm() - fine.form.reference_radius()) * module / gear.reference_radius, helix_angle, fine.poissons_ratio)});
+                       across_tooth(tangent, 1 + (position.norm() - fine.form.reference_radius()) * module / gear.reference_radius, helix_angle,
+                                    fine.poissons_ratio)});
   }
 }
 

@@ -20,7 +20,7 @@ std::vector<double> fillet_zetas(double face_width) { return axial_stations(face
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   const double tangent = fillet.along(mesh.form.root_tangent_point(30 * units::deg));
   FilletGrid grid;
-  for (int i = 1; i <= fillet_stations; ++i) grid.along.push_back(0.1 * (i + 1));
+  grid.along.assign(fillet_stations.begin(), fillet_stations.end());
   const auto nearest = std::ranges::min_element(grid.along, {}, [&](double s) { return std::abs(s - tangent); });
   *nearest = tangent;
   grid.tangent = static_cast<std::size_t>(nearest - grid.along.begin());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -24,10 +25,9 @@ struct FilletGrid {
 /// Tension side only: the fillet below the flank that carries. Forces are those of NetFunctionals, with the same motion
 /// removed as in the gear's influence values, at least translation, torsion and tilt. They enter over the tooth's
 /// centre surface and are held by the shaft right where they act. The stress of the shaft's own bending and torsion is
-/// therefore not included (5e-4 of the whole with the default shaft; a rigid motion causes no stress). A force on the
-/// flank itself stresses the fillet 1 to 2 % more from the upper half of the flank, 5 % from 0.6 modules above the
-/// fillet (18 teeth), but its near field is narrower than the distance between the points of a contact line: each would
-/// show by itself.
+/// therefore not included (5e-4 of the whole with the default shaft; a rigid motion causes no stress). That a force on the
+/// flank itself stresses the fillet more, from low on the flank by a quarter, is added by RootStressCorrection: its near field is narrower than the distance
+/// between the points of a contact line, and the table stays smooth without it.
 struct RootStressTable {
   StationGrid grid;   ///< points of the forces
   FilletGrid fillet;  ///< points of the stresses
@@ -41,9 +41,8 @@ struct RootStressTable {
   const Eigen::MatrixXd* response(int tooth, int loaded_tooth) const;
 };
 
-/// Seven points along the fillet from 0.2 to 0.8, where the stress has its maximum; the nearest one is moved to the
-/// 30 deg tangent.
-inline constexpr int fillet_stations = 7;
+/// Points along the fillet, closest where the stress has its maximum; the nearest one is moved to the 30 deg tangent.
+inline constexpr std::array fillet_stations{0.3, 0.4, 0.475, 0.55, 0.625, 0.7, 0.8};
 
 /// Axial points there: steps from 0.25 modules at the ends to 0.6. Between these points the stress of a line load rises
 /// by up to 3 % above its largest value at them (18 and 24 teeth, helix 30 and 0 deg).

@@ -184,8 +184,8 @@ FiniteElementRuns solve_finite_elements(const ComplianceTask& task, const Compli
     std::shared_ptr<const RimMotionTable> rim_motion;
     if (job.run.rim_motion) rim_motion = std::make_shared<const RimMotionTable>(std::move(*job.run.rim_motion));
     for (const Use& use : job.uses) {
-      place_of(runs, use) = {table,    root_stress, job.run.statistics, body_used(task, use), job.task.removed, job.from_cache,
-                             job.file, job.seconds, rim_motion, job.task.mesh};
+      place_of(runs, use) = {table,          root_stress, job.run.statistics, body_used(task, use), job.task.removed,
+                             job.from_cache, job.file,    job.seconds,        rim_motion,           job.task.mesh};
     }
   }
   runs.seconds = clock.seconds();

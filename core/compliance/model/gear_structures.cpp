@@ -72,8 +72,9 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
     }
   }
   if (const auto& pinion = runs.root_stress_run(Member::Pinion).root_stress) {
-    structures.root_stress = std::make_shared<const TabulatedRootStress>(task.pair, sections.root_stress(Member::Pinion, *pinion),
-                                                                         sections.root_stress(Member::Wheel, *runs.root_stress_run(Member::Wheel).root_stress));
+    structures.root_stress =
+        std::make_shared<const TabulatedRootStress>(task.pair, sections.root_stress(Member::Pinion, *pinion),
+                                                    sections.root_stress(Member::Wheel, *runs.root_stress_run(Member::Wheel).root_stress));
   }
   return structures;
 }

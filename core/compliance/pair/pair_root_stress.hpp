@@ -41,7 +41,7 @@ class RootStressInfluence {
   /// What the points of a tooth add to its own fillet beside the table, RootStressCorrection::added(): one component of stress.
   struct Added {
     Eigen::Index first_station{0}, first_point{0};
-    Eigen::MatrixXd stress;                                   ///< places x points [MPa/N]
+    Eigen::MatrixXd stress;                                ///< places x points [MPa/N]
     std::shared_ptr<const Eigen::Matrix3Xd> components{};  ///< (s_tt, s_aa, s_ta) of a unit of it at every place
   };
   /// @param points  n

@@ -63,8 +63,8 @@ std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, co
     return GearStructure{
         .compliance = std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh, task.plane_strain)),
         .youngs_modulus = task.material.youngs_modulus,
-        .half_space = std::make_shared<const HalfSpaceCorrection>(half_space_correction(
-            LoadedSection(pair[m], pair, task.material.poissons_ratio, fine_section()), pair[m]))};
+        .half_space = std::make_shared<const HalfSpaceCorrection>(
+            half_space_correction(LoadedSection(pair[m], pair, task.material.poissons_ratio, fine_section()), pair[m]))};
   };
   return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]), gear(Member::Wheel, task.bore_radius[1]));
 }

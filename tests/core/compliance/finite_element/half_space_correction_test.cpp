@@ -23,7 +23,8 @@ GearPair pair_of(int pinion, int wheel, double face, double helix_deg = 0, doubl
 
 double at_height(const GearPair& pair, Member m, double height) {
   const Gear& gear = pair[m];
-  return half_space_correction(LoadedSection(gear, pair, 0.3, fine_section()), gear).at(gear.form_radius + height * (gear.tip_radius - gear.form_radius));
+  return half_space_correction(LoadedSection(gear, pair, 0.3, fine_section()), gear)
+      .at(gear.form_radius + height * (gear.tip_radius - gear.form_radius));
 }
 
 }  // namespace
