@@ -191,17 +191,17 @@ LoadedSection::BelowTeeth LoadedSection::below_teeth(const Gear& gear, const Gea
   return {(own.root_radius() - radii.teeth) / pair.data.normal_module, body.hold == BodyHold::RigidBore && !body.web && radii.teeth <= radii.bore};
 }
 
-/// The body as far as the section has it.
+/// The body as far as the section has it. The centre line, which carries loads, runs on far below what yields, as that of the gear does.
 GearBody LoadedSection::section_body(const ToothForm& spur, const BelowTeeth& below) {
   const double surface = spur.root_radius() - below.depth, deepest = std::max(spur.root_radius() - deepest_yielding, surface / 2);
   GearBody body;
-  const bool is_disc = rim_radius(spur, 2 * deepest, 1) >= surface;  // a bore so deep leaves the same blocks
-  if (below.is_rigid || is_disc) {
+  if (below.is_rigid) {
     body.hold = BodyHold::RigidBore;
-    body.bore_diameter = 2 * (below.is_rigid ? surface : deepest);
+    body.bore_diameter = 2 * surface;
   } else {
-    body.shaft_diameter = 2 * surface;
-    body.bore_diameter = 2 * std::min(deepest, 0.89 * surface);
+    constexpr double round_off = 1e-9;
+    const bool is_disc = rim_radius(spur, 2 * deepest, 1) > surface - round_off;  // a shaft so deep leaves the same blocks
+    body.shaft_diameter = 2 * (is_disc ? deepest : surface);
   }
   return complete_body(body, spur, 1, 1);
 }
@@ -223,9 +223,10 @@ LoadedSection::LoadedSection(const Gear& gear, const GearPair& pair, double nu, 
   const double face = gear.data.face_width / pair.data.normal_module / std::cos(pair.base_helix_angle);
   const GearBody body = section_body(form, below);
   mesh = section_mesh(form, spur.teeth, 1, spur.face_width, body, options);
+  const double rigid = below.is_rigid ? body.bore_diameter / 2 : form.root_radius() - deepest_yielding;
   std::vector<int> held;
   for (int node = 0; node < mesh.nodes.cols(); ++node) {
-    if (mesh.nodes.col(node).norm() < body.bore_diameter / 2 * (1 + 1e-9)) held.push_back(node);  // round-off
+    if (mesh.nodes.col(node).norm() < std::max(rigid, body.bore_diameter / 2) * (1 + 1e-9)) held.push_back(node);  // round-off
   }
   const PlaneStrainSection section(mesh, {1, poissons_ratio}, held);
   assert(section.status() == FactorStatus::Factorised);

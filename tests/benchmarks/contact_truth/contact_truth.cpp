@@ -10,7 +10,6 @@
 #include "studies/study_file/study_file.hpp"
 #include "tests/benchmarks/contact_truth/benchmark_cases.hpp"
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
-#include "tests/benchmarks/contact_truth/flank_load.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
 #include "tests/benchmarks/contact_truth/outside_fillet.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
@@ -169,11 +168,6 @@ void compare_roots(const ContactCase& c, ContactSettings settings, const std::st
       largest(held);
       largest(shaft);
       std::printf(" |\n");
-      if (c.task.pair.helix_angle == 0) {
-        std::printf("    load on the flank over load on the centre surface: %.4f at the tangent, %.4f at %.3f\n",
-                    flank_over_centre_load(c.task, member, tooth, fillet.tangent()), flank_over_centre_load(c.task, member, tooth, peak.along),
-                    peak.along);
-      }
       for (const double z : held.root_places(member, tooth)) {
         if (c.task.half_face && z > 0) continue;
         std::printf("    z %7.2f tangent %.3f: %.2f %.2f %.2f\n", z, fillet.tangent(), fillet.stress(fillet.tangent(), z),
