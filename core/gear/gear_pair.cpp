@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/findings.hpp"
 #include "core/base/root.hpp"
 #include "core/gear/edges.hpp"
 #include "core/gear/generation_check.hpp"
@@ -14,21 +15,6 @@
 namespace flankwright {
 
 namespace {
-
-/// Collects what is wrong instead of stopping at the first.
-class Findings {
- public:
-  void require(bool holds, const std::string& field, double value, const std::string& allowed) {
-    if (!holds) problems_.emplace_back(field, in_words(value), allowed);
-  }
-  void add(const InvalidInput& problem) { problems_.push_back(problem); }
-  void add(const std::vector<InvalidInput>& problems) { problems_.insert(problems_.end(), problems.begin(), problems.end()); }
-  bool empty() const { return problems_.empty(); }
-  std::vector<InvalidInput> take() { return std::move(problems_); }
-
- private:
-  std::vector<InvalidInput> problems_;
-};
 
 void check_rack(const GearData& gear, const std::string& name, const PairData& pair, Findings& findings) {
   const RackProfile& rack = gear.rack;

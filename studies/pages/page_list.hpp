@@ -12,7 +12,7 @@ struct NamedPage {
 
 inline constexpr std::array documentation_pages{
     NamedPage{"start", "README.html", "what the program does and what it does not model"},
-    NamedPage{"tutorial", "studies/tutorial.html", "one's own gear from the drawing to the grinding sheet, in ten steps"},
+    NamedPage{"tutorial", "studies/tutorial.html", "your own gear from the drawing to the grinding sheet, in ten steps"},
     NamedPage{"guide", "studies/README.html", "how a study is written and run"},
     NamedPage{"how-to", "studies/how-to.html", "noise, wide faces, test rigs, clusters, measured flanks: half a page each"},
     NamedPage{"keys", "studies/keys.html", "every key of a study file"},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/compliance/shaft/field_checks.hpp"
+#include "core/base/findings.hpp"
 
 namespace flankwright {
 
@@ -17,7 +17,7 @@ bool has_angle(BearingType type) { return type == BearingType::AngularContactBal
 constexpr double largest_angle = 60 * units::deg;
 constexpr int fewest_elements = 3;
 
-class LawChecks : FieldChecks {
+class LawChecks : Findings {
  public:
   explicit LawChecks(const BearingLawData& data) : data_(data) {}
 
@@ -31,7 +31,7 @@ class LawChecks : FieldChecks {
       require(std::isnan(data_.element_length), "element_length", data_.element_length, allowed);
       require(std::isnan(data_.contact_angle), "contact_angle", data_.contact_angle / units::deg, allowed);
     }
-    return std::move(found_);
+    return take();
   }
 
  private:
@@ -39,7 +39,7 @@ class LawChecks : FieldChecks {
   void check_column(const std::string& field, const std::vector<double>& values, double unit, const std::string& unit_name) {
     if (values.empty()) return require(false, field, "(not given)", "as many numbers as the other column of the table has");
     require(values.front() >= 0.0 && std::isfinite(values.front()), field, values.front() / unit, "0 " + unit_name + " or more");
-    for (std::size_t i = 1; i < values.size() && found_.empty(); ++i) {
+    for (std::size_t i = 1; i < values.size() && empty(); ++i) {
       require(values[i] > values[i - 1] && std::isfinite(values[i]), field, values[i] / unit,
               "above " + in_words(values[i - 1] / unit) + " " + unit_name + ", the value before it: a table increases");
     }
@@ -50,7 +50,7 @@ class LawChecks : FieldChecks {
     const std::vector<double>&forces = data_.table_force, &deflections = data_.table_deflection;
     check_column("force_table", forces, 1.0, "N");
     check_column("deflection_table", deflections, units::um, "um");
-    if (!found_.empty()) return;
+    if (!empty()) return;
     require(forces.size() == deflections.size(), "deflection_table", std::to_string(deflections.size()) + " numbers",
             std::to_string(forces.size()) + " numbers, one for each of force_table");
     require(forces.back() > 0.0 && deflections.back() > 0.0, "force_table", forces.back(), "at least one point beyond the origin");

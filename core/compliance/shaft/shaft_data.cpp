@@ -4,24 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/findings.hpp"
+
 namespace flankwright {
 
 namespace {
-
-class Findings {
- public:
-  void require(bool holds, const std::string& field, double value, const std::string& allowed) {
-    if (!holds) found_.emplace_back(field, std::isnan(value) ? "(not given)" : std::to_string(value), allowed);
-  }
-  void require(bool holds, const std::string& field, const std::string& value, const std::string& allowed) {
-    if (!holds) found_.emplace_back(field, value, allowed);
-  }
-  bool empty() const { return found_.empty(); }
-  std::vector<InvalidInput> take() { return std::move(found_); }
-
- private:
-  std::vector<InvalidInput> found_;
-};
 
 std::string element(const char* list, std::size_t i) { return std::string(list) + "." + std::to_string(i) + "."; }
 
@@ -51,8 +38,7 @@ void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");
     findings.require(bearing.radial_clearance >= 0.0 && std::isfinite(bearing.radial_clearance), name + "radial_clearance", bearing.radial_clearance,
                      "0 mm or more");
-    for (const InvalidInput& problem : find_law_problems(bearing))
-      findings.require(false, name + problem.field(), problem.value(), problem.allowed());
+    for (const InvalidInput& problem : find_law_problems(bearing)) findings.add({name + problem.field(), problem.value(), problem.allowed()});
     positions.push_back(bearing.position);
     holds_axially = holds_axially || bearing.axial_stiffness > 0.0;
     holds_tilt = holds_tilt || bearing.tilting_stiffness > 0.0;

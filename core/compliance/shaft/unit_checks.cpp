@@ -5,9 +5,9 @@
 #include <cmath>
 #include <set>
 
+#include "core/base/findings.hpp"
 #include "core/compliance/shaft/unit_statics.hpp"
 #include "core/compliance/shaft/unit_supports.hpp"
-#include "core/compliance/shaft/field_checks.hpp"
 
 namespace flankwright {
 
@@ -15,7 +15,7 @@ namespace {
 
 std::string in_mm(double length) { return in_words(length) + " mm"; }
 
-class Checking : FieldChecks {
+class Checking : Findings {
  public:
   Checking(const ShaftsOfPair& shafts, const GearPair& pair) : shafts_(shafts), unit_(shafts.unit), pair_(pair), all_(shafts.all()) {}
 
@@ -24,9 +24,9 @@ class Checking : FieldChecks {
          {&Checking::check_shafts, &Checking::check_names, &Checking::check_meshes, &Checking::check_loads, &Checking::check_joints,
           &Checking::check_housing, &Checking::check_restraints, &Checking::check_torques, &Checking::check_axes}) {
       (this->*check)();
-      if (!found_.empty()) break;  // what follows needs what came before
+      if (!empty()) break;  // what follows needs what came before
     }
-    return std::move(found_);
+    return take();
   }
 
  private:
@@ -37,7 +37,7 @@ class Checking : FieldChecks {
       const double face_width = !of_pair ? 0.0 : pair_[name == pair_shafts[0] ? Member::Pinion : Member::Wheel].data.face_width;
       for (const InvalidInput& problem :
            unit_.empty() ? flankwright::find_problems(*all_[i], face_width) : find_problems_in_unit(*all_[i], face_width)) {
-        found_.emplace_back(shafts_.table(static_cast<int>(i)) + "." + problem.field(), problem.value(), problem.allowed());
+        add({shafts_.table(static_cast<int>(i)) + "." + problem.field(), problem.value(), problem.allowed()});
       }
     }
   }
@@ -82,7 +82,7 @@ class Checking : FieldChecks {
       require(mesh.gears[0].shaft != mesh.gears[1].shaft, table + "shaft_2", mesh.gears[1].shaft, "another shaft than shaft_1");
       require(mesh.normal_module > 0.0, table + "normal_module", mesh.normal_module, "above 0 mm");
       require(!std::isnan(mesh.angle), table + "angle", mesh.angle, "a number");
-      if (!found_.empty()) return;
+      if (!empty()) return;
       const double least = geometry_of(mesh).base_radius[0] + geometry_of(mesh).base_radius[1];
       require(std::isnan(mesh.centre_distance) || mesh.centre_distance > least, table + "centre_distance", mesh.centre_distance,
               "above " + in_mm(least) + ", the sum of the base radii");
@@ -137,7 +137,7 @@ class Checking : FieldChecks {
     const Eigen::MatrixXd& k = housing.stiffness;
     require(k.rows() == size && k.cols() == size, "unit.housing.stiffness", std::to_string(k.size()) + " numbers",
             std::to_string(size * size) + " numbers: a row for x, y and z of each of " + std::to_string(housing.seats.size()) + " seats");
-    if (!found_.empty()) return;
+    if (!empty()) return;
     constexpr double round_off = 1e-6;  // |k_ij - k_ji| at most this part of the largest entry: matrices come rounded
     require((k - k.transpose()).cwiseAbs().maxCoeff() <= round_off * k.cwiseAbs().maxCoeff(), "unit.housing.stiffness", "not symmetric",
             "a symmetric matrix");
