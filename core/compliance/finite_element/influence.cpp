@@ -47,7 +47,7 @@ FlankInfluence FlankFunctionals::influence(const Eigen::MatrixXd& gram, double h
   const Eigen::MatrixXd by_motions = gram.middleRows(n, m).leftCols(n) - gram.block(n, n, m, m) * taken_off;
   Eigen::MatrixXd compliance = gram.topLeftCorner(n, n) - gram.block(0, n, n, m) * taken_off - taken_off.transpose() * by_motions;
   compliance = (0.5 * (compliance + compliance.transpose())).eval();
-  return {compliance.array() + hold, gram.bottomLeftCorner(r, n) - gram.block(n + m, n, r, m) * taken_off};
+  return {compliance.array() + hold, gram.bottomLeftCorner(r, n) - gram.block(n + m, n, r, m) * taken_off, gram.bottomRightCorner(r, r)};
 }
 
 FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,

@@ -35,6 +35,8 @@ struct FlankInfluence {
   Eigen::MatrixXd compliance;
   /// Every reading under a unit force at every point, r x n.
   Eigen::MatrixXd readings;
+  /// Every reading under every other one taken as a load, r x r, for those that are in equilibrium.
+  Eigen::MatrixXd between_readings;
 };
 
 /// The linear functionals from which a FlankInfluence is made: l_p of n points, m motions of the shaft and r readings.

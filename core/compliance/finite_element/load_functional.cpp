@@ -92,11 +92,15 @@ LoadFrame load_frame(const GearMesh& mesh, const FlankPoint& point) {
   return frame;
 }
 
-Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point) {
-  const LoadFrame frame = load_frame(mesh, point);
+namespace {
+
+/// A unit load against the normal, spread over faces by a weight times the area, and made to have the load's force and moments about every axis by a linear factor.
+/// @param weight  of (place, vector of the area element) [1/mm^2 times the area's]
+/// @param parts   that a face is divided into each way
+template <typename Weight, typename Parts>
+Eigen::SparseVector<double> spread_load(const GearMesh& mesh, const std::vector<MeshFace>& faces, const LoadFrame& frame, Weight&& weight,
+                                        Parts&& parts_of) {
   const Eigen::Vector3d& n = frame.normal;
-  const Eigen::Vector3d foot = on_face_width(mesh, frame.position - frame.depth * n);
-  const Eigen::Vector3d source = foot + source_height * frame.depth * n;
   Eigen::Matrix<double, 2, 3> across;  // rows: directions across the line of action
   across.row(0) = Eigen::Vector3d(n.y(), -n.x(), 0).normalized();
   across.row(1) = n.cross(across.row(0).transpose());
@@ -104,16 +108,16 @@ Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankP
   // Per node: integrals of w N times (1, xi, eta).
   std::map<int, Eigen::Vector3d> nodal;
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of w times (1, xi, eta) and itself
-  for (const MeshFace& face : mesh.surfaces(point.tooth).centre) {
+  for (const MeshFace& face : faces) {
     const FaceNodes nodes = mesh.face_nodes(face);
+    const int division = parts_of(nodes);
+    if (division == 0) continue;
     Eigen::Matrix<double, 8, 3> sums = Eigen::Matrix<double, 8, 3>::Zero();
-    integrate_face(parts(nodes, source), [&](const FaceShape& shape, double weight) {
-      const Eigen::Vector3d x = nodes * shape.values, d = x - source;
-      const double a = -n.dot(d);
-      if (!(a > 0)) return;
+    integrate_face(division, [&](const FaceShape& shape, double share) {
+      const Eigen::Vector3d x = nodes * shape.values;
       const Eigen::Matrix<double, 3, 2> tangents = nodes * shape.derivatives;
-      const Eigen::Vector3d area = tangents.col(0).cross(tangents.col(1));  // nu dA
-      const double w = 1.5 / units::pi * a * a * std::abs(d.dot(area)) / std::pow(d.squaredNorm(), 2.5) * weight;
+      const double w = share * weight(x, tangents.col(0).cross(tangents.col(1)));
+      if (!(w > 0)) return;
       Eigen::Vector3d powers;
       powers << 1, across * (x - frame.position) / frame.depth;
       sums += w * shape.values * powers.transpose();
@@ -128,6 +132,36 @@ Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankP
     for (int a = 0; a < 3; ++a) result.insert(3 * node + a) = -n[a] * factors.dot(sums);
   }
   return result;
+}
+
+}  // namespace
+
+Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point) {
+  const LoadFrame frame = load_frame(mesh, point);
+  const Eigen::Vector3d& n = frame.normal;
+  const Eigen::Vector3d foot = on_face_width(mesh, frame.position - frame.depth * n);
+  const Eigen::Vector3d source = foot + source_height * frame.depth * n;
+  const auto weight = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& area) {  // area: nu dA
+    const Eigen::Vector3d d = x - source;
+    const double a = -n.dot(d);
+    return a > 0 ? 1.5 / units::pi * a * a * std::abs(d.dot(area)) / std::pow(d.squaredNorm(), 2.5) : 0.0;
+  };
+  return spread_load(mesh, mesh.surfaces(point.tooth).centre, frame, weight, [&](const FaceNodes& nodes) { return parts(nodes, source); });
+}
+
+Eigen::SparseVector<double> flank_functional(const GearMesh& mesh, const FlankPoint& point) {
+  const LoadFrame frame = load_frame(mesh, point);
+  const double radius = flank_patch * mesh.normal_module;
+  const auto weight = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& area) {
+    return std::max(0.0, 1 - (x - frame.position).squaredNorm() / (radius * radius)) * area.norm();
+  };
+  const auto parts_of = [&](const FaceNodes& nodes) {
+    const Eigen::Vector3d centre = nodes.leftCols<4>().rowwise().mean();
+    const double size = (nodes.leftCols<4>().colwise() - centre).colwise().norm().maxCoeff();
+    if ((centre - frame.position).norm() > radius + 1.5 * size) return 0;
+    return std::clamp(static_cast<int>(std::ceil(6 * size / radius)), 2, 12);
+  };
+  return spread_load(mesh, mesh.surfaces(point.tooth).flank, frame, weight, parts_of);
 }
 
 SectionMotion shaft_motion(const GearMesh& mesh, double z) {

@@ -77,6 +77,15 @@ inline constexpr double source_height = 0.5;
 /// @returns  size 3 n, the consistent nodal loads of a unit load [N/N]
 Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point);
 
+/// Radius of the patch of flank_functional() [m_n].
+inline constexpr double flank_patch = 0.4;
+
+/// The same load where it acts, on the flank: a pressure 1 - (R/rho)^2 within rho = flank_patch of the point, along the point's own inward normal, cut off at the tip,
+/// at the form circle and at the face ends, where a linear factor keeps force and all moments as in centre_functional(). The difference of both
+/// therefore is in equilibrium, and only what is near to the point feels it.
+/// @returns  as centre_functional()
+Eigen::SparseVector<double> flank_functional(const GearMesh& mesh, const FlankPoint& point);
+
 /// Rigid motion of the shaft's section at a height z that fits its displacements best (least squares over its area):
 /// u = t + omega x (x - (0, 0, z)). Exact for a rigid motion.
 struct SectionMotion {

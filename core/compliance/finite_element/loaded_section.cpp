@@ -47,23 +47,37 @@ SectionPlace place_on(const ToothForm& form, double radius) {
   return {position, normal, position.x() / normal.x(), radius * psi / std::cos(alpha)};
 }
 
-/// Hertz's pressure of a unit line load.
-Eigen::VectorXd pressure(const SectionMesh& mesh, const SectionTooth& tooth, const SectionPlace& at, double half_width) {
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(mesh.nodes.size());
-  double total = 0;
+/// A unit line load on the flank, spread over a half width by a weight of the distance over it, with the force and the moment of the line.
+template <typename Weight>
+Eigen::VectorXd line_load(const SectionMesh& mesh, const SectionTooth& tooth, const SectionPlace& at, double half_width, Weight&& weight) {
+  const Eigen::Vector2d across(at.normal.y(), -at.normal.x());
+  std::vector<std::pair<SectionEdge, Eigen::Matrix<double, 3, 2>>> loaded;
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   for (const SectionEdge& edge : tooth.flank) {
     const Edge nodes = nodes_of(mesh, edge);
     if ((nodes.colwise() - at.position).colwise().norm().minCoeff() > half_width + (nodes.col(2) - nodes.col(0)).norm()) continue;
-    Eigen::Vector3d shares = Eigen::Vector3d::Zero();
-    integrate_edge(40, [&](const EdgeShape& shape, double weight) {
-      const double off = (nodes * shape.values - at.position).norm() / half_width;
-      if (off < 1) shares += std::sqrt(1 - off * off) * weight * (nodes * shape.derivatives).norm() * shape.values;
+    Eigen::Matrix<double, 3, 2> sums = Eigen::Matrix<double, 3, 2>::Zero();
+    integrate_edge(40, [&](const EdgeShape& shape, double share) {
+      const Eigen::Vector2d off = nodes * shape.values - at.position;
+      const double distance = off.norm() / half_width;
+      if (!(distance < 1)) return;
+      const Eigen::Vector2d powers(1, across.dot(off) / half_width);
+      const double w = weight(distance) * share * (nodes * shape.derivatives).norm();
+      sums += w * shape.values * powers.transpose();
+      moments += w * powers * powers.transpose();
     });
-    total += shares.sum();
-    add(edge, shares, -at.normal, load);
+    loaded.emplace_back(edge, sums);
   }
-  return load / total;
+  const Eigen::Vector2d factors = moments.inverse() * Eigen::Vector2d(1, 0);
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(mesh.nodes.size());
+  for (const auto& [edge, sums] : loaded) add(edge, sums * factors, -at.normal, load);
+  return load;
 }
+
+/// Hertz's pressure.
+double hertzian(double distance) { return std::sqrt(1 - distance * distance); }
+/// A line of patches of flank_functional().
+double patches(double distance) { return std::pow(1 - distance * distance, 1.5); }
 
 /// The deflection of the flank at one point, as a functional.
 Eigen::VectorXd deflection(const SectionMesh& mesh, const SectionTooth& tooth, const SectionPlace& at) {
@@ -234,20 +248,22 @@ LoadedSection::LoadedSection(const Gear& gear, const GearPair& pair, double nu, 
   const double flank_length = (form.tip_radius() * form.tip_radius() - form.form_radius() * form.form_radius()) / (2 * form.base_radius());
   half_width = half_width_share * flank_length;
   const auto n = static_cast<Eigen::Index>(section_heights.size());
-  Eigen::MatrixXd loads(mesh.nodes.size(), 2 * n), readings(mesh.nodes.size(), 2 * n);
+  Eigen::MatrixXd loads(mesh.nodes.size(), 3 * n), readings(mesh.nodes.size(), 2 * n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const double height = section_heights[static_cast<std::size_t>(i)];
     places.push_back(place_on(form, form.form_radius() + height * (form.tip_radius() - form.form_radius())));
     const FaceFunctional functional(mesh, loaded_tooth(), places.back());
-    loads.col(i) = pressure(mesh, loaded_tooth(), places.back(), half_width);
+    loads.col(i) = line_load(mesh, loaded_tooth(), places.back(), half_width, hertzian);
+    loads.col(2 * n + i) = line_load(mesh, loaded_tooth(), places.back(), flank_patch, patches);
     loads.col(n + i) = functional.mean(face);
     readings.col(i) = deflection(mesh, loaded_tooth(), places.back());
     readings.col(n + i) = functional.at_mid_face(face);
   }
   const Eigen::MatrixXd moved = section.solve(loads);
   by_flank = moved.leftCols(n);
-  by_centre = moved.rightCols(n);
-  const Eigen::VectorXd read = readings.cwiseProduct(moved).colwise().sum();
+  by_centre = moved.middleCols(n, n);
+  by_patch = moved.rightCols(n);
+  const Eigen::VectorXd read = readings.cwiseProduct(moved.leftCols(2 * n)).colwise().sum();
   flank_deflection = read.head(n);
   centre_deflection = read.tail(n);
 }

@@ -42,6 +42,7 @@ struct LoadedSection {
   double half_width{not_given};       ///< L of the pressure
   std::vector<SectionPlace> places;   ///< at section_heights
   Eigen::MatrixXd by_flank;           ///< displacements of the nodes, node by node (x, y), under the pressure, a column for each height
+  Eigen::MatrixXd by_patch;           ///< under a line of flank_functional()
   Eigen::MatrixXd by_centre;          ///< under the loads of points evenly along the face
   Eigen::VectorXd flank_deflection;   ///< u_p: of the flank under the middle of its pressure
   Eigen::VectorXd centre_deflection;  ///< l_mid' A^-1 l_mean: of the functional of a point at mid face under the loads of all points

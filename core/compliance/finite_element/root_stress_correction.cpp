@@ -105,14 +105,14 @@ RootStressCorrection::RootStressCorrection(const LoadedSection& fine, const Load
   const double helix_angle = std::abs(pair.data.helix_angle), module = pair.data.normal_module;
   for (const double along : fillet.along) {
     const double arc = along * coarse.length();  // both fillets start alike, but end where their elements do
-    const Eigen::RowVectorXd on_flank = exact.stress(arc, fine.by_flank), on_centre = exact.stress(arc, fine.by_centre),
-                             by_table = coarse.stress(arc, as_table.by_centre);
-    const double factor = on_centre.dot(by_table) / by_table.squaredNorm();
+    const Eigen::RowVectorXd by_line = exact.stress(arc, fine.by_flank), by_patches = exact.stress(arc, fine.by_patch),
+                             by_table = coarse.stress(arc, as_table.by_patch);
+    const double factor = by_patches.dot(by_table) / by_table.squaredNorm();
     const auto [position, tangent] = exact.at(arc);
     std::vector<double> added, distance;
     for (std::size_t i = 0; i < heights.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      added.push_back(on_flank[k] - factor * by_table[k]);
+      added.push_back(by_line[k] - factor * by_table[k]);
       distance.push_back((fine.places[i].position - position).norm());
     }
     places_.push_back({factor, NaturalSpline(heights, added), NaturalSpline(heights, distance),

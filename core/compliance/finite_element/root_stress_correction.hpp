@@ -9,27 +9,24 @@
 
 namespace flankwright {
 
-/// What a RootStressTable lacks, because its loads enter over the tooth's centre surface instead of on the flank, and because its elements along the
-/// fillet are few. Both are solved for in plane strain, on the tooth in its section across the contact line. Let s_f be the stress in the fillet across the
-/// tooth under a unit line load on the flank, by fine elements. Let s_c be the same by loads over the centre line, and s_t by these loads and by elements as
-/// the table has. Then
+/// What a RootStressTable lacks, because its elements along the fillet are few, and because each of its forces is spread over a patch of the flank. Both are solved
+/// for in plane strain, on the tooth in its section across the contact line. Let s_l be the stress in the fillet across the tooth under a unit line load
+/// on the flank, by fine elements. Let s_p be the same under a line of patches, and s_t under these by elements as the table has. Then
 ///
-///     s_f = f s_t + D,   f = sum s_c s_t / sum s_t^2 over all heights of the load.
+///     s_l = f s_t + D,   f = sum s_p s_t / sum s_t^2 over all heights of the load.
 ///
-/// The factor f belongs to a place along the fillet, whatever loads it: the table is multiplied by it. D belongs to the place and to the height of a load
-/// on its own tooth: it is added. In the section the sum is exact. Along the tooth, a load adds most to the places nearest to it,
+/// The factor f (0.98 to 1.06) belongs to a place along the fillet, whatever loads it: the table is multiplied by it. D belongs to the place and to the height of a load
+/// on its own tooth: it is added. It matters low on the flank only, where it is up to 6 % of the whole. In the section the sum is exact. Along the tooth, a load adds most to the places nearest to it,
 ///
 ///     D w/m_n [F(z_2) - F(z_1)],   F(z) = t/(2 sqrt(d^2 + t^2)),   t = z - z_place,
 ///
 /// for each piece z_1 .. z_2 of the line that a contact point stands for, and for its mirror image in either end face. d is the distance of the place from
 /// the load in the section. F' is the share of a load that a half space has at the depth d [Poisson's kernel, integrated across z]. An even load adds D w/m_n all along the face.
 ///
-/// Beside spur teeth of 18 and 54 teeth in three dimensions, loaded on the flank, the sum is within 1.5 % of the largest stress (root mean square) for lines
-/// over the whole and over half the face and for 0.4 modules in the middle of it, and within 2 % for 0.4 modules at its end. Boussinesq's narrower kernel
-/// [(d^2 + t^2)^(-5/2)] has 2.7 and 2.5 % there.
+/// Beside teeth of 18 and 54 teeth with 12 x 12 x 5 elements, loaded on the flank along lines at heights of 0.12 to 0.8, the largest stress by the default mesh is within 1.3 % (spur)
+/// and, with 30 deg, within 1.1 % from 0.25 up (4 % for half a line at the acute end of the wheel) and 5 % at 0.12; all stresses are within 1.6 and 2.3 % of the largest (root mean square).
 ///
-/// s_f, s_c and s_t lie across the tooth; with plane strain nu times as much lies along it. In a helical tooth's fillet both are turned against t and a of FilletStress.
-/// Departure: there a place is paired with the load of the same z, not with that straight across the tooth (0.2 modules further for each module of height, 30 deg).
+/// s_l, s_p and s_t lie across the tooth; with plane strain nu times as much lies along it. In a helical tooth's fillet both are turned against t and a of FilletStress.
 class RootStressCorrection {
  public:
   /// A place along the fillet, as FilletGrid::along.

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "core/base/units.hpp"
+#include "core/compliance/finite_element/load_functional.hpp"
 #include "core/compliance/tooth/flank_stations.hpp"
 
 namespace flankwright {
@@ -28,21 +29,35 @@ FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   return grid;
 }
 
-RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material) {
+RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material, const StationGrid& grid) {
   const FilletStress fillet(mesh, material);
-  const FilletGrid grid = fillet_grid(mesh, fillet);
+  const FilletGrid places = fillet_grid(mesh, fillet);
   std::vector<FilletPoint> stations;
-  for (const double along : grid.along) {
-    for (const double zeta : grid.zetas) stations.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+  for (const double along : places.along) {
+    for (const double zeta : places.zetas) stations.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
   }
-  return {grid, fillet.functionals(stations)};
+  Eigen::SparseMatrix<double> on_the_flank(mesh.solid.nodes.size(), grid.size());
+  Eigen::Index column = 0;
+  for (const FlankStation& station : grid.stations()) {
+    const FlankPoint point{0, flank_radius(mesh.form, station.u), station.zeta * mesh.normal_module - mesh.face_width / 2};
+    const Eigen::SparseVector<double> load = flank_functional(mesh, point) - centre_functional(mesh, point);
+    on_the_flank.startVec(column);
+    for (Eigen::SparseVector<double>::InnerIterator entry(load); entry; ++entry) on_the_flank.insertBack(entry.index(), column) = entry.value();
+    ++column;
+  }
+  on_the_flank.finalize();
+  return {places, fillet.functionals(stations), on_the_flank};
 }
 
-RootStressTable root_stress_table(const GearMesh& mesh, const StationGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress) {
-  assert(stress.rows() == 3 * fillet.size() && stress.cols() == (2 * mesh.teeth_each_side + 1) * grid.size());
+RootStressTable root_stress_table(const GearMesh& mesh, const StationGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress,
+                                  const Eigen::MatrixXd& on_the_flank) {
+  const Eigen::Index n = grid.size();
+  assert(stress.rows() == 3 * fillet.size() && stress.cols() == (2 * mesh.teeth_each_side + 1) * n);
+  assert(on_the_flank.rows() == stress.rows() && on_the_flank.cols() == n);
   RootStressTable table{grid, fillet, {}};
   const double scale = mesh.normal_module * mesh.normal_module;
-  for (Eigen::Index begin = 0; begin < stress.cols(); begin += grid.size()) table.stress.push_back(scale * stress.middleCols(begin, grid.size()));
+  for (Eigen::Index begin = 0; begin < stress.cols(); begin += n) table.stress.push_back(scale * stress.middleCols(begin, n));
+  table.stress[static_cast<std::size_t>(mesh.teeth_each_side)] += scale * on_the_flank;
   return table;
 }
 

@@ -22,12 +22,10 @@ struct FilletGrid {
 /// Stress along the fillets of one gear under forces on its flanks [Haddad 1991, eq. 1.71, as three components instead
 /// of one, so that loads add up exactly before the principal stress is taken].
 ///
-/// Tension side only: the fillet below the flank that carries. Forces are those of NetFunctionals, with the same motion
-/// removed as in the gear's influence values, at least translation, torsion and tilt. They enter over the tooth's
-/// centre surface and are held by the shaft right where they act. The stress of the shaft's own bending and torsion is
-/// therefore not included (5e-4 of the whole with the default shaft; a rigid motion causes no stress). That a force on the
-/// flank itself stresses the fillet more, from low on the flank by a quarter, is added by RootStressCorrection: its near field is narrower than the distance
-/// between the points of a contact line, and the table stays smooth without it.
+/// Tension side only: the fillet below the flank that carries. Forces on the tooth itself act on the flank, flank_functional(). Those on its neighbours enter
+/// over the centre surface as in the gear's influence values, with which they share force and moments: that far away nothing else matters. The same motion is
+/// removed as in the influence values, at least translation, torsion and tilt: forces are held by the shaft right where they act. The stress of the shaft's own bending and
+/// torsion is therefore not included (5e-4 of the whole with the default shaft; a rigid motion causes no stress).
 struct RootStressTable {
   StationGrid grid;   ///< points of the forces
   FilletGrid fillet;  ///< points of the stresses
@@ -50,17 +48,21 @@ std::vector<double> fillet_zetas(double face_width);
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
 
-/// Three functionals per fillet point of tooth 0, see FilletStress::functionals(), by which a table is read.
+/// What a table is read by, on tooth 0.
 struct RootStressReadings {
   FilletGrid fillet;
-  Eigen::SparseMatrix<double> functionals;  ///< 3n x 3 P, MPa per mm
+  Eigen::SparseMatrix<double> stress;  ///< three functionals per fillet point, see FilletStress::functionals(), 3n x 3 P, MPa per mm
+  Eigen::SparseMatrix<double>
+      on_the_flank;  ///< flank_functional() less centre_functional() at every point of the grid, loads in equilibrium, 3n x grid.size()
 };
 
 /// @param material  of the solid model
-RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material);
+RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material, const StationGrid& grid);
 
-/// @param stress  of the readings under unit forces at the points of the grid on teeth -M .. M, one tooth after the
-///                other [MPa/N]
-RootStressTable root_stress_table(const GearMesh& mesh, const StationGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress);
+/// @param stress        of the readings under unit forces at the points of the grid on teeth -M .. M, one tooth after the
+///                      other, over their centre surfaces [MPa/N], 3 P x (2 M + 1) grid.size()
+/// @param on_the_flank  of the readings under RootStressReadings::on_the_flank [MPa/N], 3 P x grid.size()
+RootStressTable root_stress_table(const GearMesh& mesh, const StationGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress,
+                                  const Eigen::MatrixXd& on_the_flank);
 
 }  // namespace flankwright

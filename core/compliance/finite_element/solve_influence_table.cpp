@@ -87,11 +87,13 @@ class TableSolver {
     const Material material{1, task_.poissons_ratio};
     SolidStiffness stiffness(mesh.solid, material, mesh.supports);
     statistics.unknowns = stiffness.lower.rows();
-    RootStressReadings readings = task_.root_stress ? root_stress_readings(mesh, material) : RootStressReadings{};
-    const Eigen::Index of_stress = readings.functionals.cols();
+    RootStressReadings roots = task_.root_stress ? root_stress_readings(mesh, material, task_.grid) : RootStressReadings{};
+    const Eigen::Index of_stress = roots.stress.cols(), of_loads = roots.on_the_flank.cols();
     const bool has_rim = reads_rim_motion(task_.gear.body);
-    if (has_rim) append_columns(readings.functionals, rim_functionals(mesh));
-    FlankFunctionals functionals(mesh, flank_points(mesh, task_.grid), task_.removed, taken(readings.functionals));
+    Eigen::SparseMatrix<double> readings = taken(roots.stress);
+    append_columns(readings, taken(roots.on_the_flank));
+    if (has_rim) append_columns(readings, rim_functionals(mesh));
+    FlankFunctionals functionals(mesh, flank_points(mesh, task_.grid), task_.removed, taken(readings));
     const double model = clock.seconds();
     int last = 0;
     const MultifrontalGram solved = influence_at_once(std::move(stiffness), std::move(functionals.all), memory_limit, [&](double done) {
@@ -105,11 +107,11 @@ class TableSolver {
     if (run_.status != FactorStatus::Factorised) return;
     const FlankInfluence influence = functionals.influence(solved.gram, axial_hold_compliance(mesh, material, task_.removed));
     run_.table.emplace(task_.grid, tables(influence.compliance.middleCols(task_.teeth_apart * task_.grid.size(), task_.grid.size())));
-    if (has_rim) run_.rim_motion = rim_motion_table(mesh, task_.grid, influence.readings.bottomRows(influence.readings.rows() - of_stress));
-    if (task_.root_stress && has_rim) {
-      run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings.topRows(of_stress));
-    } else if (task_.root_stress) {
-      run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings);
+    if (has_rim)
+      run_.rim_motion = rim_motion_table(mesh, task_.grid, influence.readings.bottomRows(influence.readings.rows() - of_stress - of_loads));
+    if (task_.root_stress) {
+      run_.root_stress = root_stress_table(mesh, task_.grid, roots.fillet, influence.readings.topRows(of_stress),
+                                           influence.between_readings.block(0, of_stress, of_stress, of_loads));
     }
     statistics.solve_seconds = clock.seconds() - statistics.model_seconds;
     report(kTableSteps);

@@ -18,7 +18,7 @@ namespace {
 constexpr double kHalfWidth = 0.1;  // L of the Hertzian pressure [modules]: a heavy load, so that the mesh resolves it
 
 /// A thin spur gear fine enough around one flank to resolve a Hertzian pressure.
-GearMeshOptions fine_section() {
+GearMeshOptions fine_flank() {
   GearMeshOptions options = coarse();
   options.flank_elements = 40;
   options.half_thickness_elements = 10;
@@ -106,7 +106,7 @@ double contact_part(double depth, double tip_distance, const std::array<double, 
 }  // namespace
 
 TEST_CASE("Structure and contact add up to the flank's deflection whatever depth parts them", "[core][compliance][fe]") {
-  const GearMesh mesh = gear_mesh(gear_of(GENERATE(18, 40), 0, 1), fine_section());
+  const GearMesh mesh = gear_mesh(gear_of(GENERATE(18, 40), 0, 1), fine_flank());
   const SolidModel solid(mesh.solid, kUnit, shaft_and(mesh, [](double) { return true; }));  // plane strain
   for (const double u : {0.1, 0.5, 0.8}) {                                                  // of the flank, from its root
     const double radius = mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius());
