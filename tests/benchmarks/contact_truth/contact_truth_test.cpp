@@ -76,37 +76,19 @@ double largest_root_stress(const OwnAnswer& own, const RootStressFigure& at) {
 
 }  // namespace
 
-TEST_CASE("Root stress of spur gears is that of CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
-  const GearStructures structures = rigid_bore_structures(spur_root_figures().front().task);
-  for (const RootFigure& figure : spur_root_figures()) {
+TEST_CASE("Root stress is that of CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
+  const bool is_spur = GENERATE(true, false);
+  const std::vector<RootFigure> figures = is_spur ? spur_root_figures() : std::vector{helical_root_figure()};
+  const GearStructures structures = rigid_bore_structures(figures.front().task);
+  for (const RootFigure& figure : figures) {
     const OwnAnswer own = own_answer(figure.task, figure.torque, structures.pair.get(), structures.root_stress.get());
     REQUIRE(own.loaded.load.usable());
     for (const RootStressFigure& root : figure.stresses) {
-      CAPTURE(figure.torque, name_of(root.member), root.tooth);
-      // Model: 0.1 to 0.7 %; 4.2 % too little where contact is 0.46 modules above the wheel's form circle and the load's own field decides.
-      const bool is_low = root.member == Member::Wheel && root.tooth == 1;
-      CHECK(own.tangent_stress(root.member, root.tooth) == Approx(root.tangent).epsilon(is_low ? 0.045 : 0.01));
-      CHECK(largest_root_stress(own, root) == Approx(root.largest).epsilon(is_low ? 0.05 : 0.015));
-    }
-  }
-}
-
-TEST_CASE("Root stress of helical gears is that of CalculiX' contact of whole gears where it is highest", "[reference][contact-truth][slow]") {
-  const RootFigure figure = helical_root_figure();
-  const GearStructures structures = rigid_bore_structures(figure.task);
-  const OwnAnswer own = own_answer(figure.task, figure.torque, structures.pair.get(), structures.root_stress.get());
-  REQUIRE(own.loaded.load.usable());
-  for (const RootStressFigure& root : figure.stresses) {
-    CAPTURE(name_of(root.member), root.tooth);
-    // Model: at the acute end the load low on the flank stresses the fillet by up to twice what it does in a section across the tooth: 8 % too little on the pinion's
-    // other tooth, 26 % on the wheel's.
-    const bool is_highest = root.tooth == (root.member == Member::Pinion ? 1 : 0);
-    if (is_highest) {
-      CHECK(own.tangent_stress(root.member, root.tooth) == Approx(root.tangent).epsilon(0.025));
+      CAPTURE(is_spur, figure.torque, name_of(root.member), root.tooth);
+      // Model and the discretisation of both: 0.1 to 1.2 % at the tangent of spur gears, up to 2.4 % of the helical ones, whose mesh in CalculiX is the coarser one.
+      CHECK(own.tangent_stress(root.member, root.tooth) == Approx(root.tangent).epsilon(is_spur ? 0.015 : 0.025));
+      // Places along the fillet are a twelfth of its length apart.
       CHECK(largest_root_stress(own, root) == Approx(root.largest).epsilon(0.025));
-    } else {
-      CHECK(own.tangent_stress(root.member, root.tooth) < root.tangent);
-      CHECK(own.tangent_stress(root.member, root.tooth) > 0.7 * root.tangent);
     }
   }
 }
