@@ -195,9 +195,8 @@ TEST_CASE("Root stress of spur gears under a load line at the tip is near ISO 63
     const auto [tangent, largest] = under_line_load(SolvedGear(gear, options).table, 1);
     const double iso = iso_6336_root(gear.gear, gear.pressure_angle).stress;
     CAPTURE(teeth, iso, tangent, largest);
-    // Model: Y_S is a formula through scattered results for the maximum, whose place it does not tell; ours spreads
-    // the load over the tooth's depth, 1.5 % less. Found 5 to 10 % below.
-    CHECK(std::abs(tangent / iso - 1) < 0.12);
+    // Model: Y_S is a formula through scattered results for the maximum, whose place it does not tell. Found 1 to 4 % below.
+    CHECK(std::abs(tangent / iso - 1) < 0.06);
     CHECK(tangent < iso);
     CHECK(largest >= tangent);
     CHECK(largest < 1.04 * tangent);
