@@ -261,7 +261,6 @@ LoadedSection::LoadedSection(const Gear& gear, const GearPair& pair, double nu, 
   }
   const Eigen::MatrixXd moved = section.solve(loads);
   by_flank = moved.leftCols(n);
-  by_centre = moved.middleCols(n, n);
   by_patch = moved.rightCols(n);
   const Eigen::VectorXd read = readings.cwiseProduct(moved.leftCols(2 * n)).colwise().sum();
   flank_deflection = read.head(n);

@@ -22,9 +22,11 @@ struct SectionPlace {
 /// Elements of a section that shows a Hertzian pressure on the flank and the stress in the fillet.
 GearMeshOptions fine_section();
 
-/// One tooth of a gear in its section across the contact line, in plane strain, m_n = 1 and E = 1, under unit line loads at section_heights: once by
-/// Hertz's pressure on the flank itself, of a half width that is thin against the tooth, and once as the structure in three dimensions has loads,
-/// centre_functional() over the tooth's centre surface, integrated across the face.
+/// One tooth of a gear in its section across the contact line, in plane strain, m_n = 1 and E = 1, under unit line loads at section_heights of three kinds:
+///
+/// - Hertz's pressure on the flank, of a half width that is thin against the tooth;
+/// - a line of patches as in flank_functional(), as root stress in three dimensions has its loads;
+/// - centre_functional() over the tooth's centre surface, integrated across the face, as the structure has them.
 ///
 /// The section is that of the equivalent spur gear (z_n, rounded, with the gear's own normal profile and tip height) and its face b/cos(beta_b). The blocks of its teeth end as
 /// far below the root as those of the gear in three dimensions do; two modules below it the body is rigid.
@@ -42,8 +44,7 @@ struct LoadedSection {
   double half_width{not_given};       ///< L of the pressure
   std::vector<SectionPlace> places;   ///< at section_heights
   Eigen::MatrixXd by_flank;           ///< displacements of the nodes, node by node (x, y), under the pressure, a column for each height
-  Eigen::MatrixXd by_patch;           ///< under a line of flank_functional()
-  Eigen::MatrixXd by_centre;          ///< under the loads of points evenly along the face
+  Eigen::MatrixXd by_patch;           ///< under the patches
   Eigen::VectorXd flank_deflection;   ///< u_p: of the flank under the middle of its pressure
   Eigen::VectorXd centre_deflection;  ///< l_mid' A^-1 l_mean: of the functional of a point at mid face under the loads of all points
 
