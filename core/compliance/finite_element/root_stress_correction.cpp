@@ -94,7 +94,7 @@ Eigen::Vector3d across_tooth(const Eigen::Vector2d& tangent, double radius_share
 }
 
 /// Part of what a point load adds, from the middle up to t along z.
-double spread(double t, double distance) { return t / (2 * std::hypot(distance, t)); }
+double spread(double t, double distance) { return t / (2 * std::sqrt(distance * distance + t * t)); }
 
 }  // namespace
 
