@@ -87,7 +87,7 @@ Eigen::VectorXd added(const RootStressCorrection& correction, const FilletGrid& 
 TEST_CASE("Table, factor and correction are the stress of a load on the flank in three dimensions", "[core][compliance][fe][root-stress][slow]") {
   // Of lines along the flank, which at the acute end of a helical tooth have the load nearest to the fillet.
   const auto [member, helix] = GENERATE(std::pair{Member::Pinion, 0.0}, std::pair{Member::Wheel, 30.0});
-  const double face = 4, piece = 0.1;
+  const double face = 4, piece = 0.2;
   const GearPair pair = pair_of(helix, face);
   GearMeshOptions usual, finer;
   usual.teeth_each_side = finer.teeth_each_side = 1;
@@ -105,8 +105,7 @@ TEST_CASE("Table, factor and correction are the stress of a load on the flank in
     double rms, largest;  ///< error over the largest stress: of all places, and of that stress
   };
   // Discretisation of both meshes, and how the load's own field spreads along the face.
-  const std::vector<Line> lines{
-      {0.25, 0, face, 0.022, 0.02}, {0.5, 0, face, 0.018, 0.012}, {0.8, 0, face / 2, 0.015, 0.012}, {0.25, 0, face / 2, 0.022, 0.045}};
+  const std::vector<Line> lines{{0.25, 0, face / 2, 0.022, 0.045}, {0.5, 0, face, 0.018, 0.012}};
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(truth.mesh.solid.nodes.size(), std::ssize(lines));
   for (std::size_t k = 0; k < lines.size(); ++k) {
     for (const FlankStation& force : line(lines[k].height, lines[k].begin, lines[k].end, piece)) {
