@@ -23,7 +23,7 @@ namespace flankwright {
 /// for each piece z_1 .. z_2 of the line that a contact point stands for, and for its mirror image in either end face. d is the distance of the place from
 /// the load in the section. F' is the share of a load that a half space has at the depth d [Poisson's kernel, integrated across z]. An even load adds D w/m_n all along the face.
 ///
-/// Beside teeth of 18 and 54 teeth with 12 x 12 x 5 elements, loaded on the flank along lines at heights of 0.12 to 0.8, the largest stress by the default mesh is within 1.3 % (spur)
+/// Beside gears of 18 and 54 teeth with 12 x 12 x 5 elements, loaded on the flank along lines at heights of 0.12 to 0.8, the largest stress by the default mesh is within 1.3 % (spur)
 /// and, with 30 deg, within 1.1 % from 0.25 up (4 % for half a line at the acute end of the wheel) and 5 % at 0.12; all stresses are within 1.6 and 2.3 % of the largest (root mean square).
 ///
 /// s_l, s_p and s_t lie across the tooth; with plane strain nu times as much lies along it. In a helical tooth's fillet both are turned against t and a of FilletStress.
