@@ -32,16 +32,17 @@ struct EffectCall {
 /// Where between flanks and stress an effect acts. Effects are asked stage by stage, and by name within one, so that the order of
 /// their registration never shows in a result.
 enum class EffectStage {
-  Unloaded,     ///< contact without load, beside the loaded mesh
-  Condition,    ///< the shape of the flanks: left out by clear_from()
-  Region,       ///< how far along the plane of action points are made
-  Placement,    ///< where the points lie
-  Body,         ///< the gear bodies
-  Structure,    ///< what yields when loads act anywhere on the mesh: the influence matrix
-  Coupling,     ///< its coupling between teeth
-  ContactSite,  ///< a point's surroundings, for the contact law
-  ContactLaw,   ///< what yields under a point's own load
-  Roots,        ///< what is read off the loads
+  Unloaded,         ///< contact without load, beside the loaded mesh
+  Condition,        ///< the shape of the flanks: left out by clear_from()
+  Region,           ///< how far along the plane of action points are made
+  Placement,        ///< where the points lie
+  Body,             ///< the gear bodies
+  Structure,        ///< what yields when loads act anywhere on the mesh: the influence matrix
+  Coupling,         ///< its coupling between teeth
+  ContactSite,      ///< a point's surroundings, for the contact law
+  ContactLaw,       ///< what yields under a point's own load
+  ContactCoupling,  ///< what contact yields under the loads beside a point
+  Roots,            ///< what is read off the loads
 };
 
 /// One physical effect: its name, the rule for when a scene calls for it, and what it does to a mesh. An effect that is

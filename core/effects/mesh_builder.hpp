@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -58,7 +59,10 @@ class MeshBuilder {
     end_distances.resize(points.size());
     tip_edges.resize(points.size());
     corrections.resize(points.size());
+    even_load_compliance = Eigen::VectorXd::Zero(std::ssize(points));
   }
+  /// Whether the contact laws know of end faces.
+  bool has_free_ends() const { return !end_distances.empty() && !std::isinf(end_distances.front().pinion.front()); }
 
   /// K of the structure between the points, teeth coupled as far as it couples them; computed when first asked for.
   const Eigen::MatrixXd& structural_influence() {
@@ -71,13 +75,14 @@ class MeshBuilder {
   bool with_extended_region{false};  ///< points before A and after E as well
   bool with_gear_bodies{false};      ///< these are compliant as well
   std::vector<ContactPoint> points;
-  Eigen::MatrixXd influence;                          ///< K, symmetric, positive semi-definite [mm/N]
+  Eigen::MatrixXd influence;                          ///< K, symmetric, positive semi-definite but for even_load_compliance [mm/N]
   std::vector<TipDistances> tip_distances;            ///< one a point
   std::vector<EndDistances> end_distances;            ///< one a point
   std::vector<std::optional<RoundedEdge>> tip_edges;  ///< one a point; nothing: contact does not see an edge
   std::vector<Corrections> corrections;               ///< one a point
   OutsideMotion outside;                              ///< of the shafts by other forces than the mesh's
   std::vector<ContactLaw> laws;                       ///< one a point, or none
+  Eigen::VectorXd even_load_compliance;               ///< what K gives back of these on its diagonal, see ContactCouplingEffect [mm^2/N]
   RootStressInfluence root_stress;
 
  private:

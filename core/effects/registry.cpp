@@ -5,6 +5,7 @@
 
 #include "core/effects/adjacent_teeth.hpp"
 #include "core/effects/bending.hpp"
+#include "core/effects/contact_coupling.hpp"
 #include "core/effects/edge_contact.hpp"
 #include "core/effects/extended_contact_region.hpp"
 #include "core/effects/free_ends.hpp"
@@ -23,7 +24,7 @@
 namespace flankwright {
 
 const EffectList& registered_effects() {
-  static const std::tuple<AdjacentTeethEffect, BendingEffect, EdgeContactEffect, ExtendedContactRegionEffect, FreeEndsEffect,
+  static const std::tuple<AdjacentTeethEffect, BendingEffect, ContactCouplingEffect, EdgeContactEffect, ExtendedContactRegionEffect, FreeEndsEffect,
                           GearBodyComplianceEffect, HertzianContactEffect, ManufacturingErrorsEffect, MisalignmentEffect, ModificationsEffect,
                           NaturalTwistEffect, RootStressEffect, ShaftsEffect, TipCornerEffect, UnloadedContactEffect, WholeSurfaceGapEffect>
       effects;

@@ -127,7 +127,12 @@ class Lines {
     const auto influence = [&](std::size_t i, std::size_t j) {
       return lines_.at.influence(static_cast<Eigen::Index>(line.begin + i), static_cast<Eigen::Index>(line.begin + j));
     };
-    const double own = 0.5 * (influence(k, k) + influence(k + 1, k + 1));
+    const auto own_influence = [&](std::size_t i) {
+      const auto row = static_cast<Eigen::Index>(line.begin + i);
+      const Eigen::VectorXd& taken_back = lines_.at.even_load_compliance;
+      return influence(i, i) + (taken_back.size() > 0 ? taken_back[row] / lines_.at.weight[row] : 0.0);
+    };
+    const double own = 0.5 * (own_influence(k) + own_influence(k + 1));
     if (!lines_.model.couples_points) return own * 0.5 * lines_.at.weight.segment<2>(static_cast<Eigen::Index>(line.begin + k)).sum();
     const std::size_t n = line.z.size();
     const double before = k > 0 ? influence(k - 1, k + 1) : 0.0, after = k + 2 < n ? influence(k, k + 2) : 0.0;

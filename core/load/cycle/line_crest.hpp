@@ -69,6 +69,7 @@ struct LoadedLines {
 ///
 ///     kappa = (K_own - K_next) (distance of the points along the line)/2.
 ///
+/// K_own is without what contact takes back on the diagonal for the law of an even load (ContactCouplingEffect): at the crest this law holds.
 /// Where points yield each for itself (thin slices) it is what they yield per line load, K_ii a_i. Departure: flanks that touch where less has been taken
 /// off, FlankTouchSearch, round the kink over R h' along the profile; the place taken is the end without relief.
 ///

@@ -43,12 +43,13 @@ MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const
   builder.set_points(contact_points(model.pair, path, quadrature, phase, builder.with_extended_region, face.begin, face.end));
   model.effects.act({EffectStage::Placement, EffectStage::Body, EffectStage::Structure, EffectStage::Coupling}, builder);
   model.effects.act(local_stages, builder);
-  model.effects.act(EffectStage::Roots, builder);
+  model.effects.act({EffectStage::ContactCoupling, EffectStage::Roots}, builder);
   MeshPosition position{phase, std::move(builder.points), {}, std::move(builder.influence), std::move(builder.laws), std::move(builder.root_stress)};
   position.weight.resize(std::ssize(position.points));
   for (Eigen::Index i = 0; i < position.weight.size(); ++i) position.weight[i] = position.points[static_cast<std::size_t>(i)].weight;
   position.face_ends = face_ends(model, path, position, face);
   position.outside = std::move(builder.outside);
+  position.even_load_compliance = std::move(builder.even_load_compliance);
   return position;
 }
 

@@ -54,6 +54,8 @@ struct MeshPosition {
   RootStressInfluence root_stress{};       ///< no points: not asked for
   std::vector<FaceEndOfLine> face_ends{};  ///< none without Hertzian contact
   OutsideMotion outside{};                 ///< what other forces than the mesh's own open between the points
+  Eigen::VectorXd
+      even_load_compliance{};  ///< part of the laws' compliance that K takes back on its diagonal, see ContactCouplingEffect [mm^2/N]; empty: none
 };
 
 struct MeshModel;

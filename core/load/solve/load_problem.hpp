@@ -18,7 +18,7 @@ namespace flankwright {
 /// error f_t.
 /// This looks at numbers that are kept elsewhere and must outlive it: influence and laws of a mesh serve many problems.
 struct LoadProblemView {
-  const Eigen::MatrixXd& influence;     ///< K, symmetric positive semi-definite, n x n [mm/N]
+  const Eigen::MatrixXd& influence;     ///< K, symmetric, n x n [mm/N]; positive semi-definite with the slopes of the laws
   const Eigen::VectorXd& weight;        ///< a, contact-line length of each point, > 0, n [mm]
   const Eigen::VectorXd& gap;           ///< g before load, n [mm]
   const std::vector<ContactLaw>& laws;  ///< c, n; empty: no local deflection (then K must be positive definite)

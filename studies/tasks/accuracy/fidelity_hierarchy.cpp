@@ -51,6 +51,7 @@ void add_model_levels(const MeshEffects& effects, std::vector<FidelityLevel>& fi
     if (effects.has(effect)) add(axis, name, [&](FidelityLevel& r) { r.left_out = {effect}; });
   };
   leave_out("contact law", "without free ends", "free_ends");
+  leave_out("contact law", "without contact coupling", "contact_coupling");
   leave_out("contact law", "without tip corner", "tip_corner");
   leave_out("adjacent teeth", "without adjacent teeth", "adjacent_teeth");
   leave_out("gear bodies", "rigid gear bodies", "gear_body_compliance");

@@ -19,10 +19,11 @@ struct OwnAnswer {
   double tangent_stress(Member member, int tooth, double z = not_given) const;
   /// Places along the face where there is root stress [mm].
   std::vector<double> root_places(Member member, int tooth) const;
-  double peak_stress() const;           ///< on flanks and edges [MPa]
-  double peak_stress(int tooth) const;  ///< of a tooth pair [MPa]
+  double peak_stress() const;           ///< away from tip edges [MPa]
+  double peak_stress(int tooth) const;  ///< of a tooth pair, edges too [MPa]
 };
 
+/// Sharp tips are rounded by 0.002 m_n, see nearly_sharp.
 /// @param torque     on the pinion [N mm]
 /// @param structure    null: thin slices
 /// @param root_stress  null: none

@@ -26,6 +26,10 @@ class CoupledSlices final : public PairCompliance {
   Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override {
     return 0.8 * influence(points, axial_offset);
   }
+  HalfSpaceCorrections half_space_corrections() const override {
+    const auto alike = std::make_shared<const HalfSpaceCorrection>(50.0, 90.0, std::vector{0.0, 1.0}, std::vector{0.1, 0.4});
+    return {alike, alike};
+  }
 
  private:
   ThinSlicePair slices_;

@@ -1,0 +1,63 @@
+#include "core/compliance/local/contact_kernel.hpp"
+
+#include <cmath>
+
+namespace flankwright {
+
+namespace {
+
+constexpr double spread = 0.1;  // e/h
+
+/// G and its integral from 0.
+struct HalfSpace {
+  double plane_strain, by_depth, e, H;
+
+  HalfSpace(double nu, double h)
+      : plane_strain(0.5 * (1.0 - nu * nu)), by_depth(0.25 * (1.0 + nu) * h * h), e(spread * h), H(h * std::sqrt(1.0 + spread * spread)) {}
+
+  double at(double r) const {
+    const double near = 1.0 / std::sqrt(r * r + e * e), far = 1.0 / std::sqrt(r * r + H * H);
+    return plane_strain * (near - far) - by_depth * far * far * far;
+  }
+  double integral(double r) const {
+    return plane_strain * (std::asinh(r / e) - std::asinh(r / H)) - by_depth / (H * H) * r / std::sqrt(r * r + H * H);
+  }
+};
+
+/// The kernel of a leaning end and its integral from x to infinity.
+struct LeaningEnd {
+  double strength, reach;
+
+  LeaningEnd(const FreeEnd& end, std::size_t face, double h) : strength(end.leaning[face]), reach(end.leaning_reach * h) {}
+
+  double at(double x) const { return strength * reach * reach / (x * (x * x + reach * reach)); }
+  double beyond(double x) const { return 0.5 * strength * std::log1p(reach / x * (reach / x)); }
+};
+
+}  // namespace
+
+ContactKernel::ContactKernel(double poissons_ratio, const Range& face, double lean, bool free_ends)
+    : poissons_ratio_(poissons_ratio), face_(face), end_(free_ends ? FreeEnd(poissons_ratio, lean) : FreeEnd()) {}
+
+double ContactKernel::between(double s, double t, double depth) const {
+  const HalfSpace half_space(poissons_ratio_, depth);
+  const double from_begin = s + t - 2.0 * face_.begin, from_end = 2.0 * face_.end - s - t;
+  const double sum = half_space.at(s - t) + half_space.at(from_begin) + half_space.at(from_end);
+  if (end_.leaning[0] == 0.0) return sum;
+  return sum + LeaningEnd(end_, 0, depth).at(from_begin + half_space.e) + LeaningEnd(end_, 1, depth).at(from_end + half_space.e);
+}
+
+double ContactKernel::over(double s, const Range& load, double depth) const {
+  const HalfSpace half_space(poissons_ratio_, depth);
+  const double from_begin = s - 2.0 * face_.begin, from_end = 2.0 * face_.end - s;
+  const auto part = [&](double near, double far) { return half_space.integral(far) - half_space.integral(near); };
+  const double sum =
+      part(load.begin - s, load.end - s) + part(from_begin + load.begin, from_begin + load.end) + part(from_end - load.end, from_end - load.begin);
+  if (end_.leaning[0] == 0.0) return sum;
+  const LeaningEnd first(end_, 0, depth), second(end_, 1, depth);
+  const double e = half_space.e;
+  return sum + first.beyond(from_begin + load.begin + e) - first.beyond(from_begin + load.end + e) + second.beyond(from_end - load.end + e) -
+         second.beyond(from_end - load.begin + e);
+}
+
+}  // namespace flankwright
