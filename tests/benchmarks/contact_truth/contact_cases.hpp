@@ -142,7 +142,8 @@ inline ContactSettings edge_settings(const ContactTask& task, int flank = 24, in
 }
 
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
-/// narrow enough for the stress at the contact, "layers" thinner ones still at the ends, for unequal faces; "roots" and "fine roots" resolve the fillets.
+/// narrow enough for the stress at the contact, "layers" thinner ones still at the ends, for unequal faces; "lines" resolves the ends of lines on helical
+/// teeth; "roots" and "fine roots" resolve the fillets.
 inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   if (name == "coarse") {
     return {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8};
@@ -159,6 +160,17 @@ inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   }
   if (name == "layers") {
     return {.flank = 10, .across = 3, .finest = 0.4, .end_layer = 0.2, .layer_growth = 1.8, .largest_layer = 3};
+  }
+  if (name == "lines") {
+    ContactMeshOptions options = contact_mesh_options("coarse");
+    options.flank = 16;
+    options.across = 4;
+    options.finest = 0.3;
+    options.into_depth = 2;
+    options.end_layer = 0.8;
+    options.layer_growth = 1.7;
+    options.largest_layer = 10;
+    return options;
   }
   if (name == "roots") {
     ContactMeshOptions options = contact_mesh_options("coarse");

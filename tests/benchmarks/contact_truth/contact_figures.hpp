@@ -63,7 +63,7 @@ inline std::vector<FaceLoad> helical_end_loads() {
   return {{0, -20, -18.0080, 207}, {0, -18.0080, -14.4223, 366}, {0, 14.4223, 18.0080, 625}, {0, 18.0080, 20, 399}, {1, -20, -18.0080, 392}};
 }
 
-/// Stress next to the flank where elements are narrow enough to show it, 0.06 mm under a contact 0.82 mm wide
+/// Stress next to the flank where elements are narrow enough to show it: outermost integration points lie 0.04 mm under a contact 0.82 mm wide
 /// ("pressure" mesh, 36,267 unknowns): a layer of the spur pair with a face of one module.
 struct StressFigure {
   ContactTask task;
