@@ -1,5 +1,6 @@
 #include "core/compliance/local/contact_kernel.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flankwright {
@@ -15,6 +16,8 @@ struct HalfSpace {
   HalfSpace(double nu, double h)
       : plane_strain(0.5 * (1.0 - nu * nu)), by_depth(0.25 * (1.0 + nu) * h * h), e(spread * h), H(h * std::sqrt(1.0 + spread * spread)) {}
 
+  /// x of a leaning end; places beyond the face count as on it.
+  double blunted(double sum_of_distances) const { return std::max(0.0, sum_of_distances) + e; }
   double at(double r) const {
     const double near = 1.0 / std::sqrt(r * r + e * e), far = 1.0 / std::sqrt(r * r + H * H);
     return plane_strain * (near - far) - by_depth * far * far * far;
@@ -44,7 +47,7 @@ double ContactKernel::between(double s, double t, double depth) const {
   const double from_begin = s + t - 2.0 * face_.begin, from_end = 2.0 * face_.end - s - t;
   const double sum = half_space.at(s - t) + half_space.at(from_begin) + half_space.at(from_end);
   if (end_.leaning[0] == 0.0) return sum;
-  return sum + LeaningEnd(end_, 0, depth).at(from_begin + half_space.e) + LeaningEnd(end_, 1, depth).at(from_end + half_space.e);
+  return sum + LeaningEnd(end_, 0, depth).at(half_space.blunted(from_begin)) + LeaningEnd(end_, 1, depth).at(half_space.blunted(from_end));
 }
 
 double ContactKernel::over(double s, const Range& load, double depth) const {
@@ -55,9 +58,10 @@ double ContactKernel::over(double s, const Range& load, double depth) const {
       part(load.begin - s, load.end - s) + part(from_begin + load.begin, from_begin + load.end) + part(from_end - load.end, from_end - load.begin);
   if (end_.leaning[0] == 0.0) return sum;
   const LeaningEnd first(end_, 0, depth), second(end_, 1, depth);
-  const double e = half_space.e;
-  return sum + first.beyond(from_begin + load.begin + e) - first.beyond(from_begin + load.end + e) + second.beyond(from_end - load.end + e) -
-         second.beyond(from_end - load.begin + e);
+  const auto part_of_end = [&](const LeaningEnd& end, double near, double far) {
+    return end.beyond(half_space.blunted(near)) - end.beyond(half_space.blunted(far));
+  };
+  return sum + part_of_end(first, from_begin + load.begin, from_begin + load.end) + part_of_end(second, from_end - load.end, from_end - load.begin);
 }
 
 }  // namespace flankwright

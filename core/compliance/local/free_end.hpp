@@ -46,7 +46,7 @@ namespace flankwright {
 ///
 /// Within about the half width next to the end the pressure itself is wider and lower than Hertz's of the same load, by
 /// the root of 1 + kappa/(1 - nu^2) at the very end: 11 % for nu = 0.3, 4 % half a half width away and 2 % a whole one.
-/// L does not account for that, so that stress there is over-estimated by as much.
+/// L does not account for that, so that stress there is over-estimated by as much. Loads that vary along the line: see ContactKernel.
 struct FreeEnd {
   double strength{0};               ///< kappa [-], 0 .. 0.51
   double reach{0};                  ///< a [-], 0 .. 0.68
