@@ -39,7 +39,7 @@ StudyResults StudyRun::finish() {
   results_.study.task->run(*this);
   find_edge_contact();
   results_.life_model = life_model(study());
-  results_.life = study_life(results_);
+  results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
@@ -154,6 +154,13 @@ std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<Mesh
   for (std::size_t i = 0; i < unknown.size(); ++i) coarse_models_[unknown[i]] = std::move(made[i]);
   for (std::size_t i = 0; i < coarse.size(); ++i) coarse[i] = &coarse_models_.at(placements[i]);
   return coarse;
+}
+
+std::optional<CoarseCycle> StudyRun::coarse_cycle_of(const LoadedResult& loaded) const {
+  const auto found = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
+  if (found == coarse_models_.end()) return std::nullopt;
+  CoarseCycle coarse{&found->second, analyse_cycle(found->second, loaded.condition, loaded.torque, {}, {}, RootStresses::Later)};
+  return coarse.cycle.usable() ? std::optional(std::move(coarse)) : std::nullopt;
 }
 
 std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cases, bool with_errors) {

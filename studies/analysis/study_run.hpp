@@ -9,6 +9,7 @@
 
 #include "studies/analysis/fidelity_level.hpp"
 #include "studies/analysis/position_memory.hpp"
+#include "studies/analysis/spectrum_life.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/base/progress.hpp"
 
@@ -79,6 +80,8 @@ class StudyRun {
   MeshPlacement placement_of(const FlankCondition& condition, double torque) const;
   std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
   std::vector<const MeshModel*> coarse_meshes_for(const std::vector<MeshPlacement>& placements);
+  /// With half the intervals at every second position; nothing where none was made for the errors of the load case.
+  std::optional<CoarseCycle> coarse_cycle_of(const LoadedResult& loaded) const;
   std::vector<MeshParameter> gradient_parameters() const;
   void note_fits();
   void add_unloaded(const Scene& scene);

@@ -97,8 +97,6 @@ std::size_t widest(const std::vector<std::string>& names, std::size_t least) {
   return width;
 }
 
-std::string known_to(double error) { return std::isnan(error) ? std::string() : fmt::format("± {:.2g}", error); }
-
 std::string analysis_table(const StudyResults& results) {
   std::string out;
   std::vector<std::string> names;
