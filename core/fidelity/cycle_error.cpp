@@ -55,6 +55,24 @@ double peak_difference(const std::vector<double>& fine, const std::vector<double
   return largest;
 }
 
+/// Of differences at several positions, less their mean.
+double rms_about_mean(const std::vector<double>& d) {
+  double square = 0.0;
+  for (const double value : d) square += (value - mean_of(d)) * (value - mean_of(d)) / static_cast<double>(d.size());
+  return std::sqrt(square);
+}
+
+/// By points, of the mean. @param d  fine less coarse at each position of the coarse cycle
+double mean_error_by_points(const std::vector<double>& d) { return of_mean * std::abs(mean_of(d)) + of_shape * rms_about_mean(d); }
+
+double mean_error_by_positions(const std::vector<double>& samples) {
+  const bool halved = samples.size() % 2 == 0 && samples.size() >= 8;
+  const double mean_of_half = mean_of(halved ? every(samples, 2) : samples);
+  const int highest_order = static_cast<int>(samples.size() - 1) / 2;
+  const double highest = highest_order > 0 ? std::abs(harmonic_phasor(samples, highest_order)) : 0.0;
+  return of_positions * std::max(std::abs(mean_of(samples) - mean_of_half), highest);
+}
+
 double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
 double te_of(const LoadedPosition& position) { return position.load.transmission_error; }
 double stress_of(const LoadedPosition& position) { return position.contact_stress.maxCoeff(); }
@@ -69,10 +87,8 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   const std::vector<double> te = curve(coarse, te_of);
   for (std::size_t i = 0; i < d.size(); ++i) d[i] -= te[i];
   const auto [low, high] = std::ranges::minmax(d);
-  double square = 0.0;
-  for (const double value : d) square += (value - mean_of(d)) * (value - mean_of(d)) / static_cast<double>(d.size());
-  const double scatter = of_shape * std::sqrt(square);
-  errors.te_mean = of_mean * std::abs(mean_of(d)) + scatter;
+  const double scatter = of_shape * rms_about_mean(d);
+  errors.te_mean = mean_error_by_points(d);
   errors.te_peak_to_peak = of_shape * (high - low);
   for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
     errors.te_harmonics.push_back(of_shape * std::abs(harmonic_phasor(d, static_cast<int>(k))) + scatter);
@@ -92,9 +108,7 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
   const std::vector<double> te = curve(fine, te_of);
   const bool halved = te.size() % 2 == 0 && te.size() >= 8;
   const std::vector<double> half = halved ? every(te, 2) : te;
-  const int highest_order = static_cast<int>(te.size() - 1) / 2;
-  const double highest = highest_order > 0 ? std::abs(harmonic_phasor(te, highest_order)) : 0.0;
-  errors.te_mean = of_positions * std::max(std::abs(mean_of(te) - mean_of(half)), highest);
+  errors.te_mean = mean_error_by_positions(te);
   for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
     // Beyond what half the positions resolve, the aliases of the orders that are.
     const bool resolved = 2 * k < half.size();
@@ -138,6 +152,16 @@ std::vector<double> coarse_phases(const std::vector<double>& phases) {
 CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse, const CycleExtremes* extremes) {
   if (!fine.usable() || !coarse.usable() || fine.positions.empty() || coarse.positions.empty() || !(fine.force > 0.0)) return {};
   return {point_errors(fine, coarse, summary), position_errors(fine, summary, extremes)};
+}
+
+double mean_error(const std::vector<double>& fine, const std::vector<double>& coarse) {
+  std::vector<double> d = every(fine, fine.size() / coarse.size());
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] -= coarse[i];
+  return mean_error_by_points(d) + mean_error_by_positions(fine);
+}
+
+double peak_error(const std::vector<double>& fine, const std::vector<double>& coarse) {
+  return of_peaks * peak_difference(every(fine, fine.size() / coarse.size()), coarse) + unseen_rise(fine);
 }
 
 CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,

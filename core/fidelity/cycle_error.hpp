@@ -47,6 +47,16 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse,
                                 const CycleExtremes* extremes = nullptr);
 
+/// Estimated discretisation error of the mean of a reading that every mesh position has, by points and positions, as estimate_errors() has it for the mean
+/// transmission error: in the reading's unit, >= 0.
+/// @param fine    at evenly spaced positions over one base pitch, at least 4
+/// @param coarse  at coarse_phases() of them, with half the intervals
+double mean_error(const std::vector<double>& fine, const std::vector<double>& coarse);
+
+/// Likewise of its largest value over the positions, as estimate_errors() has it for the peak contact stress without a search for extremes.
+/// @param fine    >= 0
+double peak_error(const std::vector<double>& fine, const std::vector<double>& coarse);
+
 /// The errors by points of a cycle that is held against a finer one, with more intervals at the same positions: each is what the two differ by, and the finer
 /// one's own error, which estimate_errors() takes from the same difference; that of the transmission error is doubled, which makes the sum that of order one.
 /// Half the intervals may meet a tip edge that neither of the two meets, so that these are often far narrower. A figure that the finer cycle does not have keeps what is `stated`, and so does one that is stated narrower.

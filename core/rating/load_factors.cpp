@@ -20,10 +20,12 @@ ManufacturingError profile_of(const ManufacturingError& e) {
   return part;
 }
 
-double squared_ratio(const ContactPeaks& peaks, const ContactPeaks& perfect, ContactPeaks::Pair ContactPeaks::*which) {
+/// (peak / that of the perfect pair)^power.
+double peak_ratio(const ContactPeaks& peaks, const ContactPeaks& perfect, ContactPeaks::Pair ContactPeaks::*which, LinePeak ContactPeaks::Pair::*of,
+                  int power) {
   if (peaks.failures > 0 || perfect.failures > 0) return not_given;
-  const double ratio = (peaks.*which).contact_stress.value / (perfect.*which).contact_stress.value;
-  return ratio * ratio;
+  const double ratio = (peaks.*which.*of).value / (perfect.*which.*of).value;
+  return power == 2 ? ratio * ratio : ratio;
 }
 
 }  // namespace
@@ -60,6 +62,8 @@ FlankCondition profile_part(const FlankCondition& condition) {
 
 FlankCondition whole_condition(const FlankCondition& condition) { return condition; }
 
+bool shafts_deflect(ConditionPart part) { return part == &lead_part || part == &whole_condition; }
+
 bool acts(const MeshParameter& parameter, ConditionPart part) {
   FlankCondition only;
   if (const auto* gear = std::get_if<GearParameter>(&parameter)) {
@@ -83,10 +87,13 @@ bool has_other_part(const FlankCondition& condition) {
 }
 
 LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile, const ContactPeaks& combined) {
-  const auto triple = [&](ContactPeaks::Pair ContactPeaks::*which) {
-    return LoadFactors::Triple{squared_ratio(lead, perfect, which), squared_ratio(profile, perfect, which), squared_ratio(combined, perfect, which)};
+  const auto triple = [&](ContactPeaks::Pair ContactPeaks::*which, LinePeak ContactPeaks::Pair::*of, int power) {
+    const auto factor = [&](const ContactPeaks& peaks) { return peak_ratio(peaks, perfect, which, of, power); };
+    return LoadFactors::Triple{factor(lead), factor(profile), factor(combined)};
   };
-  return {triple(&ContactPeaks::without_spikes), triple(&ContactPeaks::with_spikes)};
+  constexpr auto stress = &ContactPeaks::Pair::contact_stress, load = &ContactPeaks::Pair::line_load;
+  return {triple(&ContactPeaks::without_spikes, stress, 2), triple(&ContactPeaks::with_spikes, stress, 2),
+          triple(&ContactPeaks::without_spikes, load, 1)};
 }
 
 }  // namespace flankwright

@@ -24,14 +24,25 @@ bool acts(const MeshParameter& parameter, ConditionPart part);
 /// Part of the condition is neither lead nor profile.
 bool has_other_part(const FlankCondition& condition);
 
-/// Load distribution factors from calculated contact stress, each the square of a ratio of peaks over the whole mesh cycle,
+/// Whether shafts, bearings, housing and the other meshes of a unit deflect in a part of a condition. What they open along the face is a deviation of the lead,
+/// as it is in ISO 6336-1 (f_sh): they belong to the lead part and to the whole. The perfect pair and the profile part have rigid shafts.
+bool shafts_deflect(ConditionPart part);
+
+/// Load distribution factors from the calculated load distribution, over the whole mesh cycle. By contact stress each is the square of a ratio of peaks,
 ///
 ///     K = (sigma_Hmax / sigma_Hmax0)^2,      0: the perfect pair under the same torque,
 ///
 /// K_Hbeta of the lead part alone [Haddad 1991, eqs 4.2 and 4.5], K_Halpha of the profile part alone [4.8 and 4.11], K_H of the whole
 /// condition [4.19 and 4.22]; spikes left out (4.2, 4.8, 4.19) as SpikeRule says, or included (4.5, 4.11, 4.22). K_H is not the
-/// product of the other two, which is given beside it [4.25 and 4.28]. The thesis also forms ratios of line loads (4.1, 4.7 and
-/// 4.18 ...); pitting follows stress, so that it prefers those here.
+/// product of the other two, which is given beside it [4.25 and 4.28]. By line loads it is the ratio itself, K = w_max / w_max0, without spikes
+/// [4.1, 4.7 and 4.18]; pitting follows stress, so that the thesis prefers those above.
+///
+/// ISO 6336-1 defines K_Hbeta as the largest line load along the face over the mean one. Here the peak of the perfect pair takes the place of that mean, and all
+/// peaks are those of the line between its points and of the cycle between its positions, see ContactPeaks. By line loads this is the same where the perfect
+/// pair's load is uniform along the face: spur gears, whose peaks with and without deviations lie in single contact. Along an oblique contact line the load
+/// of the perfect pair changes with the stiffness of the teeth, and ends of the face are stiffer or softer; ISO's mean leaves both to other factors, and the
+/// ratio leaves them out. By stress, at the same line load, a peak that moves along the profile counts with another radius of curvature: K differs from the
+/// ratio of line loads by the ratio of the radii.
 struct LoadFactors {
   struct Triple {
     double lead{not_given};                            ///< K_Hbeta [-]
@@ -39,7 +50,8 @@ struct LoadFactors {
     double combined{not_given};                        ///< K_H [-]
     double product() const { return lead * profile; }  ///< K_Hbeta K_Halpha [-]
   };
-  Triple without_spikes, with_spikes;
+  Triple without_spikes, with_spikes;  ///< by contact stress
+  Triple line_load;                    ///< by line loads, without spikes
 };
 
 /// From the peaks of the four conditions at one torque; NaN where one of them has none, or failed at some position.

@@ -212,23 +212,28 @@ PeakGradients peak_gradients_of_part(const MeshAt& mesh_at, const FlankCondition
 
 LoadFactorGradients load_factor_gradients(const RatedPeaks& perfect, const RatedPeaks& lead, const RatedPeaks& profile, const RatedPeaks& combined) {
   const LoadFactors factors = load_factors(perfect.peaks, lead.peaks, profile.peaks, combined.peaks);
-  const auto triple = [&](const LoadFactors::Triple& value, auto gradient, auto peak) {
+  const auto triple = [&](const LoadFactors::Triple& value, auto pair, auto slopes, auto of, auto slope_of, double power) {
     const auto relative = [&](const RatedPeaks& rated) -> Eigen::RowVectorXd {
-      return (rated.gradients.*gradient).contact_stress / (rated.peaks.*peak).contact_stress.value;
+      return rated.gradients.*slopes.*slope_of / (rated.peaks.*pair.*of).value;
     };
     const Eigen::RowVectorXd base = relative(perfect);
-    const auto of = [&](double factor, const RatedPeaks& rated) -> Eigen::RowVectorXd {
+    const auto change = [&](double factor, const RatedPeaks& rated) -> Eigen::RowVectorXd {
       const Eigen::RowVectorXd slope = relative(rated);
       if (std::isnan(factor) || slope.size() == 0 || slope.size() != base.size()) return {};
-      return 2.0 * factor * (slope - base);
+      return power * factor * (slope - base);
     };
-    const Eigen::RowVectorXd by_lead = of(value.lead, lead), by_profile = of(value.profile, profile);
+    const Eigen::RowVectorXd by_lead = change(value.lead, lead), by_profile = change(value.profile, profile);
     const bool has_both = by_lead.size() > 0 && by_profile.size() > 0;
-    return LoadFactorGradients::Triple{by_lead, by_profile, of(value.combined, combined),
+    return LoadFactorGradients::Triple{by_lead, by_profile, change(value.combined, combined),
                                        has_both ? Eigen::RowVectorXd(by_lead * value.profile + value.lead * by_profile) : Eigen::RowVectorXd()};
   };
-  return {triple(factors.without_spikes, &PeakGradients::without_spikes, &ContactPeaks::without_spikes),
-          triple(factors.with_spikes, &PeakGradients::with_spikes, &ContactPeaks::with_spikes)};
+  const auto by_stress = [&](const LoadFactors::Triple& value, auto pair, auto slopes) {
+    return triple(value, pair, slopes, &ContactPeaks::Pair::contact_stress, &PeakGradients::Pair::contact_stress, 2.0);
+  };
+  return {by_stress(factors.without_spikes, &ContactPeaks::without_spikes, &PeakGradients::without_spikes),
+          by_stress(factors.with_spikes, &ContactPeaks::with_spikes, &PeakGradients::with_spikes),
+          triple(factors.line_load, &ContactPeaks::without_spikes, &PeakGradients::without_spikes, &ContactPeaks::Pair::line_load,
+                 &PeakGradients::Pair::line_load, 1.0)};
 }
 
 }  // namespace flankwright

@@ -44,7 +44,7 @@ struct LoadFactorGradients {
   struct Triple {
     Eigen::RowVectorXd lead, profile, combined, product;
   };
-  Triple without_spikes, with_spikes;
+  Triple without_spikes, with_spikes, line_load;
 };
 
 /// Located peaks of one part of a condition and their derivatives.
@@ -53,7 +53,7 @@ struct RatedPeaks {
   PeakGradients gradients;
 };
 
-/// dK = 2 K (dsigma/sigma - dsigma_0/sigma_0).
+/// By contact stress dK = 2 K (dsigma/sigma - dsigma_0/sigma_0), by line loads dK = K (dw/w - dw_0/w_0).
 LoadFactorGradients load_factor_gradients(const RatedPeaks& perfect, const RatedPeaks& lead, const RatedPeaks& profile, const RatedPeaks& combined);
 
 }  // namespace flankwright

@@ -18,6 +18,19 @@ double relative_sliding(const GearPair& pair, const ContactPoint& point) {
   return std::abs(rho_1 - rho_2 / pair.gear_ratio()) / pair.pinion.base_radius;
 }
 
+namespace {
+
+/// a |v_g| / v_tb of the points of a position [mm].
+Eigen::VectorXd weighted_sliding(const MeshModel& model, const MeshPosition& at) {
+  Eigen::VectorXd sliding(std::ssize(at.points));
+  for (std::size_t j = 0; j < at.points.size(); ++j) {
+    sliding[static_cast<Eigen::Index>(j)] = at.weight[static_cast<Eigen::Index>(j)] * relative_sliding(model.pair, at.points[j]);
+  }
+  return sliding;
+}
+
+}  // namespace
+
 CycleNumber local_loss_factor(const MeshModel& model, const LoadedCycle& cycle) {
   const double count = static_cast<double>(cycle.positions.size()), cos_beta_b = std::cos(model.pair.base_helix_angle);
   const double per_force = 1.0 / (count * cycle.force * cos_beta_b);
@@ -25,17 +38,22 @@ CycleNumber local_loss_factor(const MeshModel& model, const LoadedCycle& cycle) 
   const bool has_slopes = cycle.positions.front().line_load_derivative.cols() > 0;
   if (has_slopes) factor.gradient = Eigen::RowVectorXd::Zero(cycle.positions.front().line_load_derivative.cols());
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
-    const MeshPosition& at = model.positions[i];
-    Eigen::VectorXd sliding(std::ssize(at.points));
-    for (std::size_t j = 0; j < at.points.size(); ++j) {
-      sliding[static_cast<Eigen::Index>(j)] = at.weight[static_cast<Eigen::Index>(j)] * relative_sliding(model.pair, at.points[j]);
-    }
+    const Eigen::VectorXd sliding = weighted_sliding(model, model.positions[i]);
     const LoadedPosition& position = cycle.positions[i];
     factor.value += per_force * sliding.dot(position.load.line_load);
     if (has_slopes) factor.gradient += per_force * sliding.transpose() * position.line_load_derivative;
   }
   if (has_slopes) factor.gradient -= factor.value / cycle.force * cycle.force_derivative;
   return factor;
+}
+
+std::vector<double> local_loss_factors(const MeshModel& model, const LoadedCycle& cycle) {
+  const double base_force = cycle.force * std::cos(model.pair.base_helix_angle);
+  std::vector<double> factors;
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    factors.push_back(weighted_sliding(model, model.positions[i]).dot(cycle.positions[i].load.line_load) / base_force);
+  }
+  return factors;
 }
 
 double pitch_point_radius(const GearPair& pair) {

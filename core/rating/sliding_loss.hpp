@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "core/rating/lubricant.hpp"
@@ -33,6 +34,9 @@ struct CycleNumber {
 /// line loads that are uniform and shared alike by the pairs in contact it is Ohlendorf's factor.
 /// @param cycle  usable(), under some force; evenly spaced positions
 CycleNumber local_loss_factor(const MeshModel& model, const LoadedCycle& cycle);
+
+/// The same at each position, before the mean [-].
+std::vector<double> local_loss_factors(const MeshModel& model, const LoadedCycle& cycle);
 
 /// Mean coefficient of friction of a mesh [Schlenk, Untersuchungen zur Fresstragfaehigkeit von Grossgetrieben, TU Munich 1994],
 ///

@@ -11,6 +11,15 @@
 
 namespace flankwright::studies {
 
+/// Estimated discretisation errors of a CaseLife, each in its figure's unit and >= 0; NaN: not estimated.
+struct CaseLifeErrors {
+  double loss_factor{not_given};                                        ///< [-]
+  double loss_power{not_given};                                         ///< [W]
+  double film{not_given}, micropitting_safety{not_given};               ///< [-]
+  double flash_temperature{not_given}, contact_temperature{not_given};  ///< [K]
+  double scuffing_safety{not_given};                                    ///< [-]
+};
+
 /// Loss, film, safety and damage of one load case. NaN: not asked for, or what it needs was not given.
 struct CaseLife {
   std::size_t loaded{0};                                          ///< index into StudyResults::loaded
@@ -25,6 +34,7 @@ struct CaseLife {
   double contact_temperature{not_given};                          ///< theta_Bmax [deg C]
   double hottest_z{not_given}, hottest_pinion_radius{not_given};  ///< where that is [mm]
   double scuffing_safety{not_given};                              ///< S_B [-]
+  CaseLifeErrors errors{};                                        ///< of these
   std::vector<Eigen::VectorXd> flash;                             ///< theta_fl at the points of each mesh position [K]; empty: not known
   PerGear<double> contact_safety{not_given,
                                  not_given};  ///< stress that is borne for the case's load cycles, or for ever, over the peak contact stress [-]

@@ -18,11 +18,15 @@ struct LoadRating {
 };
 
 /// The mesh for a condition, see MeshPlacement, with what derivatives by these parameters need, see with_perturbed_meshes().
-using MeshFor = std::function<MeshAt(const FlankCondition& condition, const std::vector<MeshParameter>& parameters)>;
+/// @param shafts_deflect  false: they are rigid
+using MeshFor = std::function<MeshAt(const FlankCondition& condition, bool shafts_deflect, const std::vector<MeshParameter>& parameters)>;
 
 /// Rates load cases of one pair. Peaks of a condition are sought once: the perfect pair's serve every scene at the same torque.
 class LoadRater {
  public:
+  /// The pair has shafts that deflect; else meshes with and without them are the same.
+  bool has_shafts{false};
+
   /// A load case, and how its mesh is made.
   struct Case {
     MeshFor mesh_for;
@@ -36,13 +40,16 @@ class LoadRater {
   LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters = {});
 
  private:
-  const ContactPeaks& peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque);
-
   struct Known {
     FlankCondition condition;
     double torque;
+    bool shafts_deflect;
     ContactPeaks peaks;
   };
+  const Known* find(const FlankCondition& condition, double pinion_torque, bool shafts_deflect) const;
+  const ContactPeaks& peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, ConditionPart part, double pinion_torque);
+  bool with_shafts(ConditionPart part) const { return has_shafts && shafts_deflect(part); }
+
   std::vector<Known> known_;
 };
 

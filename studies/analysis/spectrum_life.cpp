@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/fidelity/cycle_error.hpp"
 #include "core/rating/contact_temperature.hpp"
 #include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
@@ -29,6 +30,28 @@ std::optional<Oil> oil_of(const LifeModel& life, const LoadedResult& loaded) {
   return Oil{&*life.lubricant, temperature, life.roughness};
 }
 
+/// Largest flash temperature, and the reciprocal of the least specific film thickness, at each position.
+struct FilmCurves {
+  std::vector<double> flash, thinness;
+};
+
+/// A position without a loaded point has neither.
+FilmCurves film_curves(const MeshModel& model, const LoadedCycle& cycle, const Lubricant& lubricant, const FilmCondition& condition) {
+  FilmCurves curves;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const Eigen::VectorXd& load = cycle.positions[i].load.line_load;
+    double flash = 0.0, thinness = 0.0;
+    for (Eigen::Index j = 0; j < load.size(); ++j) {
+      const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
+      flash = std::fmax(flash, local_temperature(model.pair, model.contact_modulus, point, load[j], condition).flash);
+      thinness = std::fmax(thinness, 1.0 / local_film(model.pair, model.contact_modulus, point, load[j], lubricant, condition).ratio);
+    }
+    curves.flash.push_back(flash);
+    curves.thinness.push_back(thinness);
+  }
+  return curves;
+}
+
 void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
   of.loss_factor = local_loss_factor(model, loaded.cycle).value;
   const double speed = loaded.operation.speed;
@@ -41,13 +64,17 @@ void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult&
   of.loss_power = of.friction * of.loss_factor * of.power;
 }
 
+FilmCondition condition_of_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, const Oil& oil) {
+  const FilmCondition given{
+      .speed = loaded.operation.speed, .oil_temperature = oil.temperature, .bulk_temperature = life.bulk_temperature, .roughness = oil.roughness};
+  return film_condition(model.pair, model.face_width, loaded.cycle.force, *oil.lubricant, given);
+}
+
 /// Film and temperatures of all points.
 void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
   const std::optional<Oil> oil = oil_of(life, loaded);
   if (!oil || !(loaded.operation.speed > 0.0)) return;
-  FilmCondition condition{
-      .speed = loaded.operation.speed, .oil_temperature = oil->temperature, .bulk_temperature = life.bulk_temperature, .roughness = oil->roughness};
-  condition = film_condition(model.pair, model.face_width, loaded.cycle.force, *oil->lubricant, condition);
+  const FilmCondition condition = condition_of_film(model, life, loaded, *oil);
   of.bulk_temperature = condition.bulk_temperature;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const Eigen::VectorXd& load = loaded.cycle.positions[i].load.line_load;
@@ -68,6 +95,21 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
   if (of.contact_temperature > oil->temperature) {
     of.scuffing_safety = scuffing_safety(life.scuffing_temperature, of.contact_temperature, oil->temperature);
   }
+}
+
+/// From the same load case with half the points at every second position, by the rules of the cycle's own figures.
+void add_errors(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, const CoarseCycle& coarse, CaseLife& of) {
+  of.errors.loss_factor = mean_error(local_loss_factors(model, loaded.cycle), local_loss_factors(*coarse.mesh, coarse.cycle));
+  of.errors.loss_power = of.friction * of.power * of.errors.loss_factor;
+  const std::optional<Oil> oil = oil_of(life, loaded);
+  if (!oil || !(loaded.operation.speed > 0.0)) return;
+  const FilmCondition condition = condition_of_film(model, life, loaded, *oil);
+  const FilmCurves fine = film_curves(model, loaded.cycle, *oil->lubricant, condition);
+  const FilmCurves rough = film_curves(*coarse.mesh, coarse.cycle, *oil->lubricant, condition);
+  of.errors.film = of.film * of.film * peak_error(fine.thinness, rough.thinness);  // the change of 1/x is x^-2 times that of x
+  of.errors.micropitting_safety = of.errors.film / life.permissible_film;
+  of.errors.flash_temperature = of.errors.contact_temperature = peak_error(fine.flash, rough.flash);
+  of.errors.scuffing_safety = of.scuffing_safety * of.errors.contact_temperature / (of.contact_temperature - oil->temperature);
 }
 
 /// What a curve allows in a load case over a stress.
@@ -227,7 +269,7 @@ bool can_be_summed(const StudyResults& results, const std::vector<CaseLife>& cas
 
 }  // namespace
 
-std::optional<StudyLife> study_life(const StudyResults& results) {
+std::optional<StudyLife> study_life(const StudyResults& results, const CoarseCycleOf& coarse_of) {
   const std::shared_ptr<const LifeModel> life = life_model(results.study);
   if (life == nullptr || results.loaded.empty()) return std::nullopt;
   StudyLife found;
@@ -242,6 +284,7 @@ std::optional<StudyLife> study_life(const StudyResults& results) {
     add_loss(model, *life, loaded, of);
     add_film(model, *life, loaded, of);
     add_safety(model, *life, loaded, of);
+    if (const std::optional<CoarseCycle> coarse = coarse_of ? coarse_of(loaded) : std::nullopt) add_errors(model, *life, loaded, *coarse, of);
   });
   found.spectra = spectra_of(results, found.cases);
   std::erase_if(found.spectra, [&](const SpectrumLife& spectrum) { return !can_be_summed(results, found.cases, spectrum); });

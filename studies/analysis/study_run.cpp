@@ -39,7 +39,7 @@ StudyResults StudyRun::finish() {
   results_.study.task->run(*this);
   find_edge_contact();
   results_.life_model = life_model(study());
-  results_.life = study_life(results_);
+  results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
@@ -52,11 +52,11 @@ void StudyRun::report(const std::string& label, int done, int total, const std::
 }
 
 MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress,
-                         const std::vector<MeshParameter>& parameters) {
+                         const PairCompliance* shafts, const std::vector<MeshParameter>& parameters) {
   const MeshPlaced placed = [&](const MeshPlacement& at) {
     const Study& study = results_.study;
-    return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at, structures().pair.get(), root_stress,
-                           results_.shafts.get(), for_each_in_parallel);
+    return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at, structures().pair.get(), root_stress, shafts,
+                           for_each_in_parallel);
   };
   return with_perturbed_meshes(placed(placement), placed, parameters);
 }
@@ -65,14 +65,16 @@ MeshPlacement StudyRun::placement_of(const FlankCondition& condition, double tor
   return flankwright::placement_of(gap_model(results_.effects), condition, results_.shafts.get(), torque);
 }
 
-MeshAt StudyRun::mesh_at(const FlankCondition& condition, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature) {
-  const MeshPlacement placement = placement_of(condition, torque);
-  MeshAt made = [this, placement, parameters, quadrature](const std::vector<double>& phases) {
-    return mesh(placement, {quadrature, phases}, nullptr, parameters);
+MeshAt StudyRun::mesh_at(const FlankCondition& condition, double torque, bool shafts_deflect, const std::vector<MeshParameter>& parameters,
+                         Quadrature quadrature) {
+  const PairCompliance* const shafts = shafts_deflect ? results_.shafts.get() : nullptr;
+  const MeshPlacement placement = flankwright::placement_of(gap_model(results_.effects), condition, shafts, torque);
+  MeshAt made = [this, placement, shafts, parameters, quadrature](const std::vector<double>& phases) {
+    return mesh(placement, {quadrature, phases}, nullptr, shafts, parameters);
   };
   if (!parameters.empty()) return made;
   const std::lock_guard lock(memories_mutex_);
-  return memories_[{placement, quadrature.intervals}].remembering(std::move(made));
+  return memories_[{placement, quadrature.intervals, shafts != nullptr}].remembering(std::move(made));
 }
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
@@ -134,7 +136,8 @@ std::vector<MeshModel> StudyRun::meshes(const std::vector<MeshPlacement>& placem
   std::vector<MeshModel> made(placements.size());
   if (placements.empty()) return made;
   const PairRootStress* root_stress = structures().root_stress.get();
-  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) { made[i] = mesh(placements[i], resolution, root_stress, parameters); });
+  tbb::parallel_for(std::size_t{0}, made.size(),
+                    [&](std::size_t i) { made[i] = mesh(placements[i], resolution, root_stress, results_.shafts.get(), parameters); });
   return made;
 }
 
@@ -153,6 +156,13 @@ std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<Mesh
   return coarse;
 }
 
+std::optional<CoarseCycle> StudyRun::coarse_cycle_of(const LoadedResult& loaded) const {
+  const auto found = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
+  if (found == coarse_models_.end()) return std::nullopt;
+  CoarseCycle coarse{&found->second, analyse_cycle(found->second, loaded.condition, loaded.torque, {}, {}, RootStresses::Later)};
+  return coarse.cycle.usable() ? std::optional(std::move(coarse)) : std::nullopt;
+}
+
 std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cases, bool with_errors) {
   std::vector<MeshPlacement> placements;
   for (const SolvedCase& of : cases) placements.push_back(placement_of(of.scene.condition, of.scene.torque));
@@ -161,7 +171,7 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
-      return mesh_at(scene.condition, scene.torque, parameters, results_.study.fidelity.quadrature)(phases);
+      return mesh_at(scene.condition, scene.torque, true, parameters, results_.study.fidelity.quadrature)(phases);
     };
     std::optional<LoadedCycle> coarse_cycle;
     if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
@@ -246,7 +256,7 @@ void StudyRun::hold_against_finer(std::size_t first) {
   quadrature.intervals *= 2;
   const std::vector<std::pair<MeshPlacement, std::vector<LoadedResult*>>> placed(wide.begin(), wide.end());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
-    const MeshModel finer = mesh(placed[i].first, {quadrature, results_.phases}, nullptr, {});
+    const MeshModel finer = mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {});
     for (LoadedResult* loaded : placed[i].second) {
       const LoadedCycle cycle = analyse_cycle(finer, loaded->condition, loaded->torque);
       flankwright::hold_against_finer(results_.models[loaded->model], loaded->cycle, finer, cycle, loaded->resolved);
@@ -271,12 +281,15 @@ void StudyRun::rate() {
   const Stopwatch clock;
   const Quadrature quadrature = rating_quadrature(results_.study.fidelity);
   const auto mesh_for = [this, quadrature](double torque) {
-    return [=, this](const FlankCondition& condition, const std::vector<MeshParameter>& by) { return mesh_at(condition, torque, by, quadrature); };
+    return [=, this](const FlankCondition& condition, bool shafts_deflect, const std::vector<MeshParameter>& by) {
+      return mesh_at(condition, torque, shafts_deflect, by, quadrature);
+    };
   };
   std::vector<LoadRater::Case> cases;
   for (const LoadedResult& loaded : results_.loaded) {
     if (loaded.cycle.usable()) cases.push_back({mesh_for(loaded.torque), loaded.condition, loaded.torque});
   }
+  rater_.has_shafts = results_.shafts != nullptr;
   rater_.seek(cases);
   for (LoadedResult& loaded : results_.loaded) {
     if (!loaded.cycle.usable()) continue;

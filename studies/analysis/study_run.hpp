@@ -4,11 +4,12 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "studies/analysis/fidelity_level.hpp"
 #include "studies/analysis/position_memory.hpp"
+#include "studies/analysis/spectrum_life.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/base/progress.hpp"
 
@@ -68,15 +69,19 @@ class StudyRun {
   void rate();
 
  private:
-  MeshModel mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress,
+  MeshModel mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress, const PairCompliance* shafts,
                  const std::vector<MeshParameter>& parameters);
   std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
                                 const std::vector<MeshParameter>& parameters);
   /// Positions that are known already are not made again where there are no parameters. May be called by several threads at a time.
-  MeshAt mesh_at(const FlankCondition& condition, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature);
+  /// @param shafts_deflect  false: they are rigid
+  MeshAt mesh_at(const FlankCondition& condition, double torque, bool shafts_deflect, const std::vector<MeshParameter>& parameters,
+                 Quadrature quadrature);
   MeshPlacement placement_of(const FlankCondition& condition, double torque) const;
   std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
   std::vector<const MeshModel*> coarse_meshes_for(const std::vector<MeshPlacement>& placements);
+  /// With half the intervals at every second position; nothing where none was made for the errors of the load case.
+  std::optional<CoarseCycle> coarse_cycle_of(const LoadedResult& loaded) const;
   std::vector<MeshParameter> gradient_parameters() const;
   void note_fits();
   void add_unloaded(const Scene& scene);
@@ -90,8 +95,8 @@ class StudyRun {
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
-  /// By placement and intervals: scenes and the parts of a condition are looked at in the same phases to begin with.
-  std::map<std::pair<MeshPlacement, int>, PositionMemory> memories_;
+  /// By placement, intervals and whether shafts deflect: scenes and the parts of a condition are looked at in the same phases to begin with.
+  std::map<std::tuple<MeshPlacement, int, bool>, PositionMemory> memories_;
   std::mutex memories_mutex_;
   double unloaded_seconds_{0.0};
   LoadRater rater_;

@@ -41,9 +41,8 @@ CaseKey case_key_of(const LoadedResult& loaded) { return {loaded.scene, loaded.t
 
 }  // namespace
 
-std::vector<bool> cases_with_points(const StudyResults& results) {
+std::vector<bool> governing_cases(const StudyResults& results) {
   const std::size_t count = results.loaded.size();
-  if (results.study.points_of_all_cases) return std::vector<bool>(count, true);
   std::vector<Measures> measures;
   std::map<std::string, Measures> largest;  // of each design
   for (std::size_t i = 0; i < count; ++i) {
@@ -58,9 +57,13 @@ std::vector<bool> cases_with_points(const StudyResults& results) {
       if (measures[i][k] > 0.0 && measures[i][k] >= (1.0 - governs_within) * of_design[k]) governing.insert(case_key_of(results.loaded[i]));
     }
   }
-  std::vector<bool> shown;
-  for (const LoadedResult& loaded : results.loaded) shown.push_back(governing.contains(case_key_of(loaded)));
-  return shown;
+  std::vector<bool> governs;
+  for (const LoadedResult& loaded : results.loaded) governs.push_back(governing.contains(case_key_of(loaded)));
+  return governs;
+}
+
+std::vector<bool> cases_with_points(const StudyResults& results) {
+  return results.study.points_of_all_cases ? std::vector<bool>(results.loaded.size(), true) : governing_cases(results);
 }
 
 }  // namespace flankwright::studies

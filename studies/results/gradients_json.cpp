@@ -58,7 +58,9 @@ Json factors_json(const LoadRating& rating, const Outside& outside) {
                 {"K_H", outside.row(of.combined)},
                 {"K_Hbeta_times_K_Halpha", outside.row(of.product)}};
   };
-  return {{"without_spikes", triple(rating.factor_gradients.without_spikes)}, {"with_spikes", triple(rating.factor_gradients.with_spikes)}};
+  return {{"without_spikes", triple(rating.factor_gradients.without_spikes)},
+          {"with_spikes", triple(rating.factor_gradients.with_spikes)},
+          {"line_load", triple(rating.factor_gradients.line_load)}};
 }
 
 Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside) {

@@ -8,6 +8,7 @@
 
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
+#include "studies/results/known_to.hpp"
 
 namespace flankwright::studies {
 
@@ -24,6 +25,7 @@ double least_safety(const PerGear<double>& of) { return std::fmin(of.pinion, of.
 struct LifeColumn {
   const char *heading, *unit, *form;
   double (*value)(const CaseLife&, const LoadedResult&);
+  double CaseLifeErrors::*error{nullptr};  ///< null: none is estimated
 };
 
 constexpr std::array<LifeColumn, 11> life_columns{{
@@ -33,11 +35,11 @@ constexpr std::array<LifeColumn, 11> life_columns{{
     {"contact", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.contact_safety); }},
     {"root", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.root_safety); }},
     {"S_H", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_contact_safety); }},
-    {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }},
-    {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }},
-    {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }},
-    {"theta_B", "degC", "{:.1f}", [](const CaseLife& c, const LoadedResult&) { return c.contact_temperature; }},
-    {"S_B", "scuffing", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return c.scuffing_safety; }},
+    {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }, &CaseLifeErrors::loss_factor},
+    {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }, &CaseLifeErrors::loss_power},
+    {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }, &CaseLifeErrors::film},
+    {"theta_B", "degC", "{:.1f}", [](const CaseLife& c, const LoadedResult&) { return c.contact_temperature; }, &CaseLifeErrors::contact_temperature},
+    {"S_B", "scuffing", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return c.scuffing_safety; }, &CaseLifeErrors::scuffing_safety},
 }};
 
 std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
@@ -94,6 +96,11 @@ std::string life_table(const StudyResults& results, std::size_t width) {
     out += fmt::format("{:<{}}  {:>10.6g}", loaded.scene + design, width, in_Nm(loaded.torque));
     for (const LifeColumn* column : shown) out += fmt::format("  {:>9}", life_number(column->value(of, loaded), column->form));
     out += "\n";
+    if (std::isnan(of.errors.loss_factor)) continue;
+    out += fmt::format("{:<{}}  {:>10}", "  known to", width, "");
+    for (const LifeColumn* column : shown)
+      out += fmt::format("  {:>9}", column->error == nullptr ? std::string() : known_to(of.errors.*column->error));
+    out += "\n";
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
@@ -104,16 +111,37 @@ std::string life_table(const StudyResults& results, std::size_t width) {
 std::string life_csv(const StudyResults& results) {
   std::string csv =
       "scene,torque_Nm,design,bin,cycles,gear,contact_damage,root_damage,contact_safety,root_safety,sigma_H_MPa,sigma_F_MPa,S_H,S_F,"
-      "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety,flash_temperature_K,contact_temperature_degC,scuffing_safety\n";
+      "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety,flash_temperature_K,contact_temperature_degC,scuffing_safety,"
+      "loss_factor_error,loss_power_W_error,specific_film_thickness_error,micropitting_safety_error,flash_temperature_K_error,contact_temperature_degC_error,"
+      "scuffing_safety_error\n";
   const auto field = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); };
   for (const CaseLife& of : results.life->cases) {
     const LoadedResult& loaded = results.loaded[of.loaded];
     for (const Member m : each_gear) {
       csv += fmt::format("{},{},{},{},{},{}", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
                          loaded.bin < 0 ? std::string() : std::to_string(loaded.bin), field(loaded.operation.revolutions), name_of(m));
-      for (const double value : {of.contact_damage[m], of.root_damage[m], of.contact_safety[m], of.root_safety[m], of.iso_contact[m], of.iso_root[m],
-                                 of.iso_contact_safety[m], of.iso_root_safety[m], of.loss_factor, of.loss_power, of.film, of.micropitting_safety,
-                                 of.flash_temperature, of.contact_temperature, of.scuffing_safety}) {
+      for (const double value : {of.contact_damage[m],
+                                 of.root_damage[m],
+                                 of.contact_safety[m],
+                                 of.root_safety[m],
+                                 of.iso_contact[m],
+                                 of.iso_root[m],
+                                 of.iso_contact_safety[m],
+                                 of.iso_root_safety[m],
+                                 of.loss_factor,
+                                 of.loss_power,
+                                 of.film,
+                                 of.micropitting_safety,
+                                 of.flash_temperature,
+                                 of.contact_temperature,
+                                 of.scuffing_safety,
+                                 of.errors.loss_factor,
+                                 of.errors.loss_power,
+                                 of.errors.film,
+                                 of.errors.micropitting_safety,
+                                 of.errors.flash_temperature,
+                                 of.errors.contact_temperature,
+                                 of.errors.scuffing_safety}) {
         csv += fmt::format(",{}", field(value));
       }
       csv += "\n";

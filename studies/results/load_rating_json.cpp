@@ -34,7 +34,9 @@ Json peaks_json(const LoadRating& rating, const MeshModel& model) {
 }
 
 Json load_factors_json(const LoadRating& rating) {
-  return {{"without_spikes", triple_json(rating.factors.without_spikes)}, {"with_spikes", triple_json(rating.factors.with_spikes)}};
+  return {{"without_spikes", triple_json(rating.factors.without_spikes)},
+          {"with_spikes", triple_json(rating.factors.with_spikes)},
+          {"line_load", triple_json(rating.factors.line_load)}};
 }
 
 Json iso_json(const IsoStiffness& stiffness, const IsoLoadFactors& factors) {

@@ -11,7 +11,7 @@ namespace flankwright::studies {
 /// "peaks" of a load case: with and without spikes, where, and by which rule.
 Json peaks_json(const LoadRating& rating, const MeshModel& model);
 
-/// "load_factors": K_Hbeta, K_Halpha, K_H and the product of the first two, without and with spikes.
+/// "load_factors": K_Hbeta, K_Halpha, K_H and the product of the first two, by contact stress without and with spikes, and by line loads without spikes.
 Json load_factors_json(const LoadRating& rating);
 
 /// "iso6336": stiffness and load distribution factors by the standard, and what they were calculated from.

@@ -27,9 +27,10 @@ std::array<double, 4> values_of(const std::optional<LoadRating>& rating, LoadFac
   return {factors.lead, factors.profile, factors.combined, factors.product()};
 }
 
-constexpr std::array<Definition, 3> definitions{{
+constexpr std::array<Definition, 4> definitions{{
     {"without_spikes", "without spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::without_spikes); }},
     {"with_spikes", "with spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::with_spikes); }},
+    {"line_load", "line load", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::line_load); }},
     {"iso6336", "ISO 6336",
      [](const LoadedResult& l) {
        return std::array{l.iso.lead, l.iso.profile, l.iso.combined(), l.iso.combined()};

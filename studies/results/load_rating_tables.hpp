@@ -6,8 +6,8 @@
 
 namespace flankwright::studies {
 
-/// load_factors.csv: K_Hbeta, K_Halpha, K_H of every load case by each definition, three rows a case: without spikes, with
-/// spikes, ISO 6336.
+/// load_factors.csv: K_Hbeta, K_Halpha, K_H of every load case by each definition, four rows a case: by contact stress without spikes and with
+/// spikes, by line loads without spikes, by ISO 6336.
 std::string load_factors_csv(const StudyResults& results);
 
 /// load_sharing.csv: every tooth's share of the force at every position.

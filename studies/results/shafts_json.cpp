@@ -1,40 +1,114 @@
 #include "studies/results/shafts_json.hpp"
 
-#include <cmath>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "studies/results/governing_cases.hpp"
 #include "studies/results/unit_json.hpp"
 
 namespace flankwright::studies {
+
+namespace {
+
+/// Motions of both shafts at one position under the loads there; NaN where a gear has no shaft, or there is no load distribution.
+PerGear<ShaftMotion> motions_at(const ShaftPair& shafts, const MeshModel& model, const LoadedResult& loaded, std::size_t i) {
+  PerGear<ShaftMotion> motions;
+  const LoadDistribution& load = loaded.cycle.positions[i].load;
+  if (!load.usable()) return motions;
+  const MeshPosition& at = model.positions[i];
+  const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (shafts.has_shaft(m)) motions[m] = shafts.motion(m, at.points, forces, model.axial_offset);
+  }
+  return motions;
+}
+
+/// What both shafts together open the mesh by at +z at one position [mm]; NaN where there is no load distribution.
+double together(const ShaftPair& shafts, const LoadedResult& loaded, std::size_t i, const PerGear<ShaftMotion>& motions) {
+  if (!loaded.cycle.positions[i].load.usable()) return not_given;
+  double sum = 0.0;
+  for (const Member m : {Member::Pinion, Member::Wheel}) sum += shafts.has_shaft(m) ? motions[m].misalignment : 0.0;
+  return sum;
+}
+
+/// f_sh [mm]; NaN where some position has no load distribution.
+double mean_misalignment(const ShaftPair& shafts, const MeshModel& model, const LoadedResult& loaded) {
+  double sum = 0.0;
+  const std::size_t positions = loaded.cycle.positions.size();
+  for (std::size_t i = 0; i < positions; ++i) sum += together(shafts, loaded, i, motions_at(shafts, model, loaded, i));
+  return sum / static_cast<double>(positions);
+}
+
+/// Over which ShaftMotion::misalignment counts, with what end roundings take off [mm].
+double common_face_width(const MeshModel& model) {
+  const double pinion = 0.5 * model.pair.pinion.data.face_width, wheel = 0.5 * model.pair.wheel.data.face_width;
+  return std::min(pinion, model.axial_offset + wheel) - std::max(-pinion, model.axial_offset - wheel);
+}
+
+/// One column of shaft_table().
+struct ShaftColumn {
+  const char *heading, *unit, *form;
+  double (*value)(double misalignment, double face_width, const UnitState& unit);  ///< in this unit
+};
+
+/// The last one is of a unit only.
+constexpr std::array shaft_columns{
+    ShaftColumn{"f_sh", "um", "{:.3f}", [](double misalignment, double, const UnitState&) { return in_um(misalignment); }},
+    ShaftColumn{"f_sh", "urad", "{:.1f}", [](double misalignment, double face_width, const UnitState&) { return 1e6 * misalignment / face_width; }},
+    ShaftColumn{"by others", "um", "{:.3f}", [](double, double, const UnitState& unit) { return in_um(unit.outside_misalignment); }},
+};
+
+}  // namespace
+
+std::string shaft_table(const StudyResults& results, std::size_t width) {
+  if (!results.shafts || results.loaded.empty()) return {};
+  const std::vector<bool> governs = governing_cases(results);
+  std::string out = fmt::format("\n{:<{}}  {:>10}", "misalignment", width, "torque"), units = fmt::format("{:<{}}  {:>10}", "", width, "N·m");
+  const auto shown = std::span(shaft_columns).first(results.shafts->has_unit() ? shaft_columns.size() : shaft_columns.size() - 1);
+  for (const ShaftColumn& column : shown) {
+    out += fmt::format("  {:>9}", column.heading);
+    units += fmt::format("  {:>9}", column.unit);
+  }
+  out += "\n" + units + "\n";
+  for (std::size_t l = 0; l < results.loaded.size(); ++l) {
+    const LoadedResult& loaded = results.loaded[l];
+    if (!governs[l] || loaded.design == "before") continue;
+    const MeshModel& model = results.models[loaded.model];
+    const ShaftPair shafts = results.shafts->at_torque(loaded.torque);
+    const double misalignment = mean_misalignment(shafts, model, loaded);
+    const UnitState unit = shafts.state(loaded.torque, model.axial_offset);
+    out += fmt::format("{:<{}}  {:>10.6g}", loaded.scene, width, in_Nm(loaded.torque));
+    for (const ShaftColumn& column : shown)
+      out += fmt::format("  {:>9}", fmt::format(fmt::runtime(column.form), column.value(misalignment, common_face_width(model), unit)));
+    out += "\n";
+  }
+  return out;
+}
 
 void add_shaft_motion(const LoadedResult& loaded, const StudyResults& results, Json& json) {
   const MeshModel& model = results.models[loaded.model];
   const ShaftPair shafts = results.shafts->at_torque(loaded.torque);
   if (shafts.has_unit() || results.shafts->depends_on_load()) json["unit"] = unit_state_json(shafts.state(loaded.torque, model.axial_offset));
-  double sum = 0.0;  // of the positions' misalignment; NaN where one has no load distribution
   json["shafts"] = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
-    const MeshPosition& at = model.positions[i];
-    const LoadDistribution& load = loaded.cycle.positions[i].load;
-    if (!load.usable()) {
+    if (!loaded.cycle.positions[i].load.usable()) {
       json["shafts"].push_back(nullptr);
-      sum = not_given;
       continue;
     }
-    const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
-    Json entry{{"phase", at.phase}};
-    double together = 0.0;
-    for (const auto& [member, name] : {std::pair{Member::Pinion, "pinion"}, std::pair{Member::Wheel, "wheel"}}) {
-      entry[name] = nullptr;
-      if (!shafts.has_shaft(member)) continue;
-      const ShaftMotion motion = shafts.motion(member, at.points, forces, model.axial_offset);
-      entry[name] = {{"displacement_um", in_um(motion.displacement)}, {"misalignment_um", in_um(motion.misalignment)}};
-      together += motion.misalignment;
+    const PerGear<ShaftMotion> motions = motions_at(shafts, model, loaded, i);
+    Json entry{{"phase", model.positions[i].phase}};
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      entry[name_of(m)] = nullptr;
+      if (!shafts.has_shaft(m)) continue;
+      entry[name_of(m)] = {{"displacement_um", in_um(motions[m].displacement)}, {"misalignment_um", in_um(motions[m].misalignment)}};
     }
-    entry["mesh_misalignment_um"] = in_um(together);
+    entry["mesh_misalignment_um"] = in_um(together(shafts, loaded, i, motions));
     json["shafts"].push_back(std::move(entry));
-    sum += together;
   }
-  json["summary"]["shaft_misalignment_um"] = in_um(sum / static_cast<double>(loaded.cycle.positions.size()));
+  json["summary"]["shaft_misalignment_um"] = in_um(mean_misalignment(shafts, model, loaded));
 }
 
 }  // namespace flankwright::studies

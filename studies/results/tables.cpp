@@ -14,6 +14,7 @@
 #include "studies/results/governing_cases.hpp"
 #include "studies/results/life_tables.hpp"
 #include "studies/results/load_rating_tables.hpp"
+#include "studies/results/shafts_json.hpp"
 #include "studies/results/unloaded_tables.hpp"
 
 namespace flankwright::studies {
@@ -96,8 +97,6 @@ std::size_t widest(const std::vector<std::string>& names, std::size_t least) {
   return width;
 }
 
-std::string known_to(double error) { return std::isnan(error) ? std::string() : fmt::format("± {:.2g}", error); }
-
 std::string analysis_table(const StudyResults& results) {
   std::string out;
   std::vector<std::string> names;
@@ -105,7 +104,8 @@ std::string analysis_table(const StudyResults& results) {
   for (const UnloadedResult& u : results.unloaded) names.push_back(u.scene);
   const std::size_t width = widest(names, 12);
   if (!results.loaded.empty()) out += loaded_table(results.loaded, width);
-  return out + load_factors_table(results, width) + life_table(results, width) + rim_table(results, width) + unloaded_summary(results, width);
+  return out + load_factors_table(results, width) + life_table(results, width) + shaft_table(results, width) + rim_table(results, width) +
+         unloaded_summary(results, width);
 }
 
 std::vector<NamedText> csv_tables(const StudyResults& results) {

@@ -5,6 +5,7 @@
 
 #include "studies/analysis/study_results.hpp"
 #include "studies/base/results_folder.hpp"
+#include "studies/results/known_to.hpp"
 
 namespace flankwright::studies {
 
@@ -20,8 +21,5 @@ std::string analysis_table(const StudyResults& results);
 
 /// Width of a column of names [characters].
 std::size_t widest(const std::vector<std::string>& names, std::size_t least);
-
-/// "± 0.012", two digits; empty where no error was estimated.
-std::string known_to(double error);
 
 }  // namespace flankwright::studies

@@ -9,6 +9,13 @@ function fitting_ticks(low, high, most, pixels) {
   return low < 0 && high > 0 ? [0] : [low];
 }
 
+/** A label in two lines, split at a space, where it has more characters than fit into one. */
+function label_lines(label, most) {
+  if (label.length <= most + 0.5) return [label];
+  const at = label.lastIndexOf(" ", most);
+  return at > 0 ? [label.slice(0, at), label.slice(at + 1)] : [label];
+}
+
 /**
  * Horizontal bars from zero.
  * @param rows  [{label, value, colour, hollow?, note?}], or several bars in a row: [{label, values, bars: [{value, colour, what}]}];
@@ -16,9 +23,11 @@ function fitting_ticks(low, high, most, pixels) {
  * @param limit  longer bars, positive or negative, end there with a break
  */
 function draw_bars(plot, { rows, unit, label, limit = Infinity }) {
-  const width = Math.max(320, plot.clientWidth || 900), row_height = 24, top = 8, bottom = 40;
+  const width = Math.max(320, plot.clientWidth || 900), top = 8, bottom = 40, per_character = 7.1;
   const longest = Math.max(...rows.map((row) => row.label.length));
-  const left = Math.min(0.6 * width, 20 + 7.1 * longest), right = 90;
+  const left = Math.min(0.6 * width, 20 + per_character * longest), right = 90;
+  const lines = rows.map((row) => label_lines(row.label, (left - 20) / per_character));
+  const row_height = lines.some((of) => of.length > 1) ? 36 : 24;
   const height = top + bottom + row_height * rows.length;
   const shown = (value) => Math.min(limit, Math.max(-limit, value));
   const values = numbers(rows.flatMap((row) => row.values || [row.value])).map(shown);
@@ -34,7 +43,7 @@ function draw_bars(plot, { rows, unit, label, limit = Infinity }) {
     unit ? `[${unit}]` : ""));
   rows.forEach((row, i) => {
     const y = top + row_height * (i + 0.5);
-    picture.append(svg("text", { x: left - 12, y: y + 4, "text-anchor": "end" }, row.label));
+    lines[i].forEach((line, k) => picture.append(svg("text", { x: left - 12, y: y + 4 + 16 * (k - (lines[i].length - 1) / 2), "text-anchor": "end" }, line)));
     const bars = row.bars || [row], thickness = 14 / bars.length;
     bars.forEach((bar, k) => {
       if (!is_number(bar.value)) return;

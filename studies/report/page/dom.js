@@ -108,7 +108,7 @@ function percent_change(a, b) {
   if (!is_number(a) || !is_number(b) || a === 0) return null;
   const percent = ((b - a) / Math.abs(a)) * 100;
   const size = Math.abs(percent);
-  return `${percent > 0 ? "+" : percent < 0 ? "−" : "±"}${size < 10 ? fmt(size, 2) : Math.round(size)} %`;
+  return `${percent > 0 ? "+" : percent < 0 ? "−" : "±"}${size < 10 || size >= 1e7 ? fmt(size, 2) : Math.round(size)} %`;
 }
 
 // Text that a spreadsheet would take for a formula is kept as text by a leading apostrophe.

@@ -1,7 +1,7 @@
 // A quantity over a tooth flank: face width to the right, radius upwards.
 
 const MAP_HEIGHT = 260;
-const MAP_MARGIN = { left: 56, right: 10, top: 26, bottom: 40 };
+const MAP_MARGIN = { left: 62, right: 10, top: 26, bottom: 40 };
 
 function draw_axes(pen, frame, { z, r, title, r_title }) {
   const { left, top, width, height } = frame;

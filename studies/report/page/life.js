@@ -143,14 +143,19 @@ function life_table(body, life) {
     const values = numbers(LIFE_GEARS.map((gear) => record(of[gear])[key]));
     return values.length > 0 ? pick(values) : null;
   };
+  const bare = (cell) => (cell !== null && typeof cell === "object" ? cell.value : cell);
+  const known_to = (key) => (of) => {
+    const value = of[key], error = of[`${key}_error`];
+    return is_number(value) && is_number(error) ? { value, text: with_error(value, error, 3) } : value;
+  };
   const least = (key) => of_both(key, minimum), most = (key) => of_both(key, maximum);
   const quantities = [["Revolutions", "", (of) => of.cycles, 3], ["Contact damage", "", most("contact_damage"), 3], ["Root damage", "", most("root_damage"), 3],
     ["Contact safety", "", least("contact_safety"), 3], ["Root safety", "", least("root_safety"), 3], ["S_H", "", least("S_H"), 3], ["S_F", "", least("S_F"), 3],
-    ["Loss factor", "", (of) => of.loss_factor, 3], ["Loss", "W", (of) => of.loss_power_W, 3], ["Film λ_GF", "", (of) => of.specific_film_thickness, 3],
-    ["Micropitting safety", "", (of) => of.micropitting_safety, 3]].filter(([, , value_of]) => has_number(life, value_of));
+    ["Loss factor", "", known_to("loss_factor"), 3], ["Loss", "W", known_to("loss_power_W"), 3], ["Film λ_GF", "", known_to("specific_film_thickness"), 3],
+    ["Micropitting safety", "", known_to("micropitting_safety"), 3]].filter(([, , value_of]) => has_number(life, (of) => bare(value_of(of))));
   const cases = list(life.cases).map(record), rest = cases.length - MOST_LIFE_ROWS;
   table(body, { title: "Life in numbers",
-    note: `The worse of both gears. S_H and S_F are those of ISO 6336-2 and -3.${rest > 0 ? ` ${rest} load cases more are in life.csv.` : ""}`,
+    note: `The worse of both gears. S_H and S_F are those of ISO 6336-2 and -3. ± is the estimated discretisation error where it is available.${rest > 0 ? ` ${rest} load cases more are in life.csv.` : ""}`,
     columns: [...case_columns, ...quantities.map(([label, unit, , digits]) => ({ label, unit, digits }))],
     rows: cases.slice(0, MOST_LIFE_ROWS).map((of) => [`${of.scene}`, of.torque_Nm ?? null, { text: DESIGN_LABEL[of.design] ?? `${of.design}`, class: "word" },
       ...quantities.map(([, , value_of]) => value_of(of) ?? null)]) });

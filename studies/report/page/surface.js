@@ -10,7 +10,8 @@ const SURFACE_TILT = (32 * Math.PI) / 180;  // of the view below the horizontal
  */
 function surface_view(grid, scale, turn, width) {
   const [z0, z1] = [grid.z[0], grid.z[grid.z.length - 1]], [r0, r1] = [grid.r[0], grid.r[grid.r.length - 1]];
-  const half_face = Math.min(0.36 * width, 200), half_depth = 0.55 * half_face, drop = 105;
+  // Turned so that it is widest it leaves room for a label on either side.
+  const half_face = Math.min(200, Math.max(0.28 * width, (0.5 * width - 66) / 1.15)), half_depth = 0.55 * half_face, drop = 105;
   const [c, s] = [Math.cos(turn), Math.sin(turn)];
   const raised = (z, r, removal) => {
     const u = half_face * ((2 * (z - z0)) / (z1 - z0) - 1), v = half_depth * ((2 * (r - r0)) / (r1 - r0) - 1);
@@ -86,14 +87,25 @@ function draw_surface(plot, grid, scale, turn, { title, gear, width }) {
   pen.font = `12px ${Chart.defaults.font.family}`;
   const centre = view.place((z0 + z1) / 2, (r0 + r1) / 2, 0);
   const taken = [];  // by labels: [left, right, y]
+  // Places of the frame, of the surface and between them along an edge.
+  const edge_places = (z, r) => {
+    const along = Array.from({ length: 25 }, (_, i) => i / 24), is_face_end = z === z0 || z === z1;
+    return along.flatMap((t) => {
+      const [at_z, at_r] = is_face_end ? [z, r0 + t * (r1 - r0)] : [z0 + t * (z1 - z0), r];
+      const removal = grid_value(grid, at_z, at_r) ?? 0;
+      return [0, 0.25, 0.5, 0.75, 1].map((part) => view.place(at_z, at_r, part * removal));
+    });
+  };
   const write = (z, r, text) => {
     // Beside the frame or the surface, whichever stands out further there.
     const removal = grid_value(grid, z, r) ?? 0, is_near = view.place(z, r, 0).y > centre.y;
     const p = view.place(z, r, is_near ? Math.max(0, removal) : Math.min(0, removal));
     const side = p.x < centre.x - 12 ? -1 : p.x > centre.x + 12 ? 1 : 0;
     pen.textAlign = side < 0 ? "right" : side > 0 ? "left" : "center";
-    const x = p.x + 7 * side, down = p.y > centre.y ? 1 : -1, wide = pen.measureText(text).width;
+    const down = p.y > centre.y ? 1 : -1, wide = pen.measureText(text).width;
     let y = p.y + 12 * down;
+    const beside = edge_places(z, r).filter((place) => Math.abs(place.y - y) < 9).map((place) => side * place.x);
+    const x = side === 0 ? p.x : side * Math.max(side * p.x, maximum(beside)) + 7 * side;
     const left = side < 0 ? x - wide : side > 0 ? x : x - wide / 2;
     pen.textAlign = "left";
     const inside = Math.min(Math.max(4, left), width - wide - 4);

@@ -116,7 +116,7 @@ function build_gear_pair(results, body) {
     title: "Gears",
     columns: [{ label: "Quantity" }, { label: "Pinion", digits: 7 }, { label: "Wheel", digits: 7 }, { label: "Unit" }],
     rows: GEAR_ROWS.filter(([, key]) => key in pinion || key in wheel)
-      .map(([label, key, unit]) => [label, pinion[key] ?? null, wheel[key] ?? null, unit]),
+      .map(([label, key, unit]) => [{ text: label, draw: () => symbols(label) }, pinion[key] ?? null, wheel[key] ?? null, unit]),
   });
   table(pair, {
     title: "Pair",

@@ -10,6 +10,7 @@
 #include "studies/base/plain_names.hpp"
 #include "studies/tasks/optimise/listed_scenes.hpp"
 #include "studies/results/life_tables.hpp"
+#include "studies/results/shafts_json.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/tasks/optimise/assessment_tables.hpp"
 #include "studies/tasks/optimise/grinding_choices.hpp"
@@ -120,7 +121,7 @@ std::string optimise_summary(const StudyResults& results) {
     const bool two = work.search.resolution.quadrature.intervals != work.fine.resolution.quadrature.intervals;
     out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
   }
-  out += life_table(results, width);
+  out += life_table(results, width) + shaft_table(results, width);
   if (results.scatter) {
     out += scatter_summary(*results.scatter, task, results.study);
     if (results.assessment) out += "over the listed scenes, of the design without scatter:\n";

@@ -1,6 +1,8 @@
 #include "core/fidelity/cycle_error.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "core/fidelity/discretisation.hpp"
 #include "tests/core/load/mesh_cases.hpp"
@@ -52,6 +54,28 @@ TEST_CASE("The stated error of a figure holds beside a cycle four times finer bo
   }
   // What four times finer leaves is less than what is stated coarsely.
   CHECK(largest(error_shares(fine.resolved.errors, fine.figures)) < largest(stated));
+}
+
+TEST_CASE("The error of a mean and of a peak covers what a kinked curve's samples leave out", "[core][load][cycle-error]") {
+  // 1 + a |sin(pi (x - s))| has a kink at s and the mean 1 + 2 a/pi; with half the intervals every reading is higher by `points`, as order one would have it
+  // another half of that is missing.
+  const double shift = GENERATE(0.0, 0.013, 0.031, 0.05), points = GENERATE(0.0, 0.02);
+  const int positions = GENERATE(8, 16, 32);
+  constexpr double a = 0.4;
+  const auto curve = [&](int n, double higher) {
+    std::vector<double> samples;
+    for (int i = 0; i < n; ++i) samples.push_back(1.0 + a * std::abs(std::sin(units::pi * (static_cast<double>(i) / n - shift))) + higher);
+    return samples;
+  };
+  const std::vector<double> fine = curve(positions, 0.5 * points), coarse = curve(positions / 2, points);
+  double mean = 0.0;
+  for (const double value : fine) mean += value / positions;
+  CAPTURE(shift, points, positions);
+  const double of_mean = mean_error(fine, coarse), of_peak = peak_error(fine, coarse);
+  CHECK(std::abs(mean - (1.0 + 2.0 * a / units::pi)) <= 2.0 * of_mean);  // the share of a mean by points is that of order two
+  CHECK(std::abs(*std::ranges::max_element(fine) - (1.0 + a)) <= of_peak);
+  CHECK(of_mean <= 0.5 * points + 0.1 * a);
+  CHECK(of_peak <= points + 0.1 * a);
 }
 
 TEST_CASE("Held against a finer cycle, the errors by points are no wider and still hold", "[core][load][cycle-error]") {

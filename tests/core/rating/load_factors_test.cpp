@@ -111,6 +111,36 @@ TEST_CASE("Bending slices under a misalignment have the linear load of ISO 6336'
   CHECK(factors.with_spikes.lead == Approx(expected).epsilon(kRoundOff));
   CHECK(factors.without_spikes.lead == Approx(expected).epsilon(kRoundOff));
   CHECK(expected > 1.05);
+  // By line loads that is the largest over the mean of the load along the face, as ISO 6336-1 defines K_Hbeta.
+  const Eigen::VectorXd load = analyse_cycle(model, misaligned, torque).positions[0].load.line_load, &weight = model.positions[0].weight;
+  CHECK(factors.line_load.lead == Approx(load.maxCoeff() * weight.sum() / weight.dot(load)).epsilon(kRoundOff));
+}
+
+TEST_CASE("By line loads K_Hbeta is that of a single contact line of a spur pair, peak over mean", "[core][load][load-factors]") {
+  // Hertzian and bending slices that do not support each other: the perfect pair's load is uniform along the face, so that its peak is the mean of any line
+  // that carries all the force.
+  constexpr double kSlices = 1e-6;  // round-off of the solver, relative to the mean load
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshAt mesh = [&](const std::vector<double>& phases) {
+    return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases}, MeshEffects::all_but({"extended_contact_region", "free_ends"}));
+  };
+  const double mean = 200, torque = torque_for(gears, mean);
+  FlankCondition misaligned;
+  misaligned.misalignment.mesh_misalignment = 5 * units::um;
+  const ContactPeaks perfect = locate_peaks(mesh, {}, torque), found = locate_peaks(mesh, misaligned, torque);
+  CHECK(perfect.without_spikes.line_load.value == Approx(mean * gears.face_width / mesh({0.5}).face_width).epsilon(kSlices));
+  const LoadFactors factors = load_factors(perfect, found, perfect, found);
+  CHECK(factors.line_load.lead > 1.1);
+  CHECK(factors.line_load.lead == Approx(found.without_spikes.line_load.value / perfect.without_spikes.line_load.value).epsilon(kSlices));
+  CHECK(factors.line_load.profile == 1.0);
+  CHECK(factors.line_load.combined == factors.line_load.lead);
+}
+
+TEST_CASE("Shafts belong to the lead and to the whole", "[core][load][load-factors]") {
+  CHECK(shafts_deflect(lead_part));
+  CHECK(shafts_deflect(whole_condition));
+  CHECK_FALSE(shafts_deflect(perfect_part));
+  CHECK_FALSE(shafts_deflect(profile_part));
 }
 
 TEST_CASE("A failed position leaves no factor", "[core][load][load-factors]") {

@@ -79,9 +79,12 @@ void check_located(const GearPair& gears) {
   for (const auto& [exact, factor] : {std::pair{&LoadFactorGradients::Triple::lead, &LoadFactors::Triple::lead},
                                       std::pair{&LoadFactorGradients::Triple::profile, &LoadFactors::Triple::profile},
                                       std::pair{&LoadFactorGradients::Triple::combined, &LoadFactors::Triple::combined}}) {
-    const double difference = (high.without_spikes.*factor - low.without_spikes.*factor) / (2 * kStep);
-    CHECK(std::abs((gradients.without_spikes.*exact).sum() - difference) <=
-          kLocated * (std::abs(difference) + 0.1 / condition.misalignment.mesh_misalignment));
+    const auto check = [&](const LoadFactorGradients::Triple& slopes, const LoadFactors::Triple& above, const LoadFactors::Triple& below) {
+      const double difference = (above.*factor - below.*factor) / (2 * kStep);
+      CHECK(std::abs((slopes.*exact).sum() - difference) <= kLocated * (std::abs(difference) + 0.1 / condition.misalignment.mesh_misalignment));
+    };
+    check(gradients.without_spikes, high.without_spikes, low.without_spikes);
+    check(gradients.line_load, high.line_load, low.line_load);
   }
   // Tip relief is no lead, crowning no profile, and none of them moves the perfect pair.
   CHECK(gradients.without_spikes.lead[1] == 0.0);
@@ -110,6 +113,38 @@ TEST_CASE("Where one spur pair carries all, peak stress follows the root of the 
   const PeakGradients gradients = peak_gradients(mesh, {}, torque, peaks, {PinionTorque{}});
   CHECK(gradients.without_spikes.contact_stress[0] * torque / peaks.without_spikes.contact_stress.value == Approx(0.5).margin(kRoundOff));
   CHECK(gradients.without_spikes.line_load[0] * torque / peaks.without_spikes.line_load.value == Approx(1.0).margin(kRoundOff));
+}
+
+TEST_CASE("K_Hbeta by line loads has exact derivatives where its peak stays at a face end", "[core][load][peaks][gradient]") {
+  // Bending slices of a spur pair without Hertzian deflection: the peak stays at its end of the face and at the phase where single contact begins, so that only
+  // the step of the differences, of a rational function, and round-off are left.
+  constexpr double kDifference = 1e-6, step = 1e-3 * units::um;
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshAt mesh = [&](const std::vector<double>& phases) {
+    return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases},
+                             MeshEffects::all_but({"hertzian_contact", "extended_contact_region", "free_ends"}));
+  };
+  const double torque = torque_for(gears, 300);
+  const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment, PinionTorque{}};
+  const auto rated_at = [&](double misalignment, double by_torque, ConditionPart part, const std::vector<MeshParameter>& by) {
+    FlankCondition condition;
+    condition.misalignment.mesh_misalignment = misalignment;
+    const ContactPeaks peaks = locate_peaks(mesh, part(condition), by_torque, {.phase_tolerance = kFineSearch, .value_tolerance = 0.0});
+    return RatedPeaks{peaks, peak_gradients_of_part(mesh, condition, part, by_torque, peaks, by)};
+  };
+  const double here = 4 * units::um;
+  const RatedPeaks perfect = rated_at(here, torque, perfect_part, parameters), lead = rated_at(here, torque, lead_part, parameters);
+  const LoadFactorGradients gradients = load_factor_gradients(perfect, lead, perfect, lead);
+  const auto factor = [&](double misalignment, double by_torque) {
+    const ContactPeaks base = rated_at(misalignment, by_torque, perfect_part, {}).peaks,
+                       found = rated_at(misalignment, by_torque, lead_part, {}).peaks;
+    return load_factors(base, found, base, found).line_load.lead;
+  };
+  const double by_misalignment = (factor(here + step, torque) - factor(here - step, torque)) / (2 * step);
+  CHECK(gradients.line_load.lead[0] == Approx(by_misalignment).epsilon(kDifference));
+  const double torque_step = 1e-3 * torque;
+  const double by_torque = (factor(here, torque + torque_step) - factor(here, torque - torque_step)) / (2 * torque_step);
+  CHECK(gradients.line_load.lead[1] == Approx(by_torque).epsilon(2.0 * kDifference));  // its second order is 1e-6 of it
 }
 
 TEST_CASE("A peak at which another point just gains contact follows every parameter with both its sides", "[core][load][peaks][gradient]") {

@@ -35,4 +35,5 @@ look parabola-18-54 flank-load search
 look spectrum-19-62 life flank-load scenes
 look ete-27-43 flank-load modifications stiffness
 look nasa-30-100 unloaded gear-pair
+look unit-two-stage flank-load gear-pair
 look sweep-18-54 scatter indices response-maps

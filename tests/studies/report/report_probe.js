@@ -41,6 +41,22 @@
     }
   }
 
+  // Words in pictures can be read: about as large as in charts, within their picture, apart from each other. Sheets for the drawing have a size of their own.
+  for (const drawing of document.querySelectorAll('main svg[role="img"]')) {
+    const frame = drawing.getBoundingClientRect(), label = drawing.getAttribute("aria-label");
+    const texts = [...drawing.querySelectorAll("text")].filter((text) => text.textContent.trim() !== "");
+    const boxes = texts.map((text) => text.getBoundingClientRect());
+    texts.forEach((text, i) => {
+      const box = boxes[i], size = parseFloat(getComputedStyle(text).fontSize) * (drawing.getScreenCTM()?.a ?? 1);
+      check(size > 10.5, `"${text.textContent}" in "${label}" is ${size.toFixed(1)} px high`);
+      check(box.left > frame.left - 2 && box.right < frame.right + 2 && box.top > frame.top - 3 && box.bottom < frame.bottom + 3,
+        `"${text.textContent}" in "${label}" is cut off`);
+      const over = boxes.findIndex((other, k) => k < i && Math.min(box.right, other.right) - Math.max(box.left, other.left) > 1
+        && Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top) > 4);
+      check(over < 0, `"${text.textContent}" lies over "${texts[over]?.textContent}" in "${label}"`);
+    });
+  }
+
   // Curves over a whole mesh cycle close after one pitch, and nothing is smoothed.
   for (const canvas of document.querySelectorAll("main canvas")) {
     const chart = Chart.getChart(canvas);

@@ -253,6 +253,41 @@ TEST_CASE("Results have the damage of each load case and its sum, by hand", "[st
   CHECK(largest == spectrum.at("pinion").at("contact").at("damage").get<double>());
 }
 
+TEST_CASE("Loss, film and temperatures carry errors that hold beside a cycle four times finer both ways", "[studies][life][cycle-error]") {
+  const std::string oil =
+      "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\nscuffing_temperature = 250\npermissible_film = 0.2\n";
+  const std::string load = "[load]\ntorque = [60, 300]\nspeed = 1500\n";
+  const std::string shape =
+      "[pinion.modification]\nlead_crowning = 5\ntip_relief = { amount = 8, height = 2 }\n[misalignment]\nmesh_misalignment = 6\n";
+  const std::string helix = GENERATE("0", "18");
+  const auto cases_with = [&](const char* intervals, const char* positions) {
+    const std::vector<Override> resolution{{"pair.helix_angle", helix}, {"fidelity.quadrature.intervals", intervals}, {"cycle.positions", positions}};
+    return results_document(run_study(life_study(life_pair + load + shape + oil, resolution))).at("life").at("cases");
+  };
+  const Json coarse = cases_with("8", "32"), fine = cases_with("32", "128");
+  REQUIRE(coarse.size() == 2);
+  for (std::size_t k = 0; k < coarse.size(); ++k) {
+    for (const char* figure : {"loss_factor", "loss_power_W", "specific_film_thickness", "micropitting_safety", "flash_temperature_K",
+                               "contact_temperature_degC", "scuffing_safety"}) {
+      const double value = coarse[k].at(figure), stated = coarse[k].at(std::string(figure) + "_error");
+      const double found = std::abs(value - fine[k].at(figure).get<double>());
+      CAPTURE(helix, k, figure, value, stated, found);
+      CHECK(found <= stated);
+      CHECK(stated < 0.3 * std::abs(value));  // and says something
+      CHECK(fine[k].at(std::string(figure) + "_error").get<double>() < stated);
+    }
+    const double micropitting = coarse[k].at("micropitting_safety_error");
+    CHECK(micropitting == Approx(coarse[k].at("specific_film_thickness_error").get<double>() / 0.2).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Given phases leave loss and film without an error", "[studies][life][cycle-error]") {
+  const Json life =
+      results_document(run_study(life_study(life_pair + "[load]\ntorque = 100\nspeed = 1500\n", {{"cycle.phases", "[0.1, 0.6]"}}))).at("life");
+  CHECK(life.at("cases")[0].at("loss_factor").get<double>() > 0.0);
+  CHECK(life.at("cases")[0].at("loss_factor_error").is_null());
+}
+
 TEST_CASE("A study without a spectrum, strength, speed or lubricant has no section of life", "[studies][life]") {
   const StudyResults results = run_study(life_study(life_pair + "[load]\ntorque = 100\n"));
   CHECK_FALSE(results.life);

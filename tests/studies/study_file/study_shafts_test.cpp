@@ -146,6 +146,31 @@ TEST_CASE("The effect shafts is on where a shaft is described and loaded, with i
   CHECK(problems.front().key == "fidelity.effects");
 }
 
+TEST_CASE("K_Hbeta counts the deflection of the shafts, K_Halpha does not", "[studies][shaft][load-factors]") {
+  // A soft bearing tilts a stiff shaft, so that the mesh opens linearly along the face.
+  const std::vector<Override> located{
+      {"cycle.peaks", "\"refined\""}, {"load.torque", "300"}, {"fidelity.quadrature", "{ rule = \"graded\", intervals = 10 }"}};
+  std::vector<Override> tilted = located, given = located;
+  for (const char* diameter : {"pinion.shaft.sections.0.outer_diameter", "pinion.shaft.sections.1.outer_diameter"})
+    tilted.push_back({diameter, "72"});
+  tilted.push_back({"pinion.shaft.bearings.0.radial_stiffness", "60"});
+  const json with = run_shafts(pair_text + shaft_text, tilted).at("loaded").at(0).at("summary");
+  const double opened = with.at("shaft_misalignment_um");
+  REQUIRE(std::abs(opened) > 5.0);
+  // The same misalignment on rigid shafts.
+  given.push_back({"misalignment.mesh_misalignment", std::to_string(opened)});
+  const json by_hand = run_shafts(pair_text, given).at("loaded").at(0).at("summary");
+  for (const char* by : {"without_spikes", "line_load"}) {
+    const json &here = with.at("load_factors").at(by), &there = by_hand.at("load_factors").at(by);
+    const double factor = here.at("K_Hbeta"), same = there.at("K_Hbeta");
+    CAPTURE(by, factor, same, opened);
+    CHECK(same > 1.1);
+    CHECK(factor - 1.0 == Approx(same - 1.0).epsilon(0.2));  // model: torsion curves the line of the shaft, and f_sh is a mean over the cycle
+    CHECK(here.at("K_Halpha") == 1.0);
+    CHECK(here.at("K_H") == here.at("K_Hbeta"));
+  }
+}
+
 TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft][physics]") {
   // Thin enough to open the mesh by some 20 um; one gear is corrected for both.
   const json results = run_shafts("task = \"optimise\"\n" + pair_text + shaft_text +

@@ -1,9 +1,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "studies/analysis/run_study.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
+#include "studies/results/tables.hpp"
 #include "studies/study_file/study_file.hpp"
 
 namespace flankwright::studies {
@@ -87,6 +91,36 @@ TEST_CASE("A study's unit misaligns the pair, and its results say by what", "[st
   CHECK_FALSE(run_unit(unit_pair, {{"pinion.shaft.torque_position", "0"}}).at("loaded").at(0).contains("unit"));
   // Without the effect nothing of the unit is left.
   CHECK_FALSE(run_unit(unit_pair + unit_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\"]"}}).at("loaded").at(0).contains("unit"));
+}
+
+TEST_CASE("The terminal has the misalignment of the load cases that govern", "[studies][shaft][unit][output]") {
+  // The largest torque governs all stresses; of the few positions the peak to peak may be governed by another, so that only its line is looked for.
+  const StudyResults results = run_study(read_unit_study(unit_pair + unit_text, {{"load.torque", "[30, 300]"}}));
+  const Json loaded = Json::parse(results_json(results)).at("loaded").at(1);
+  const double misalignment = loaded.at("summary").at("shaft_misalignment_um"), others = loaded.at("unit").at("misalignment_by_other_forces_um");
+  constexpr double face_width = 40;  // mm
+  const auto row = [](const StudyResults& of, double torque) -> std::vector<double> {
+    std::istringstream lines(analysis_table(of));
+    bool is_in_table = false;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("misalignment")) is_in_table = true;
+      if (!is_in_table || !line.starts_with("nominal")) continue;
+      std::istringstream cells(line.substr(std::string("nominal").size()));
+      std::vector<double> numbers;
+      for (double number = 0.0; cells >> number;) numbers.push_back(number);
+      if (numbers.front() == torque) return numbers;
+    }
+    return {};
+  };
+  const std::vector<double> line = row(results, 300);
+  REQUIRE(line.size() == 4);
+  constexpr double printed_um = 6e-4, printed_urad = 0.06;  // half of the last digit, and its round-off
+  CHECK(std::abs(line[1] - misalignment) < printed_um);
+  CHECK(std::abs(line[2] - 1e3 * misalignment / face_width) < printed_urad);
+  CHECK(std::abs(line[3] - others) < printed_um);
+  // Shafts without a unit have no other forces, rigid shafts no table.
+  CHECK(row(run_study(read_unit_study(unit_pair, {{"pinion.shaft.torque_position", "0"}})), 300).size() == 3);
+  CHECK(row(run_study(read_unit_study(unit_pair + unit_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\"]"}})), 300).empty());
 }
 
 TEST_CASE("Other meshes act as the misalignment that they make", "[studies][shaft][unit][physics]") {
