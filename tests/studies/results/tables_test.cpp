@@ -80,7 +80,7 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
   for (const LoadedPosition& position : results.loaded[0].cycle.positions) points += static_cast<std::size_t>(position.contact_stress.size());
   CHECK(tables.at("points.csv").size() == 1 + 2 * points);
   // Load distribution factors three ways.
-  CHECK(tables.at("load_factors.csv").size() == 1 + 2 * 3);
+  CHECK(tables.at("load_factors.csv").size() == 1 + 2 * 4);
   // Every tooth pair's share, 1 in all.
   std::map<std::string, double> sums;
   for (std::size_t i = 1; i < tables.at("load_sharing.csv").size(); ++i) {
