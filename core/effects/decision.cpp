@@ -6,12 +6,6 @@
 
 namespace flankwright {
 
-std::vector<std::string_view> effect_names() {
-  std::vector<std::string_view> names;
-  for (const Effect* effect : registered_effects()) names.push_back(effect->name());
-  return names;
-}
-
 std::vector<std::string> listed_effect_names() {
   std::vector<std::string> names;
   for (const Effect* effect : registered_effects()) {

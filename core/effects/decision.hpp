@@ -17,9 +17,7 @@ struct EffectDecision {
 };
 using EffectDecisions = std::vector<EffectDecision>;
 
-/// Names of all effects, in the order of the flow.
-std::vector<std::string_view> effect_names();
-/// Names of those that a study's list switches, in the order of the flow.
+/// Names of the effects that a study's list switches, in the order of the flow.
 std::vector<std::string> listed_effect_names();
 
 /// Which effects the scenes call for, each with its reason.

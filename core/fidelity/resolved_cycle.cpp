@@ -11,13 +11,7 @@ namespace {
 void include(const MeshModel& model, const LoadedCycle& cycle, const LoadedCycle& extremes, CycleSummary& summary) {
   const Eigen::VectorXd te = cycle.transmission_error(), further = extremes.transmission_error();
   summary.te_peak_to_peak = std::max(te.maxCoeff(), further.maxCoeff()) - std::min(te.minCoeff(), further.minCoeff());
-  for (const LoadedPosition& position : extremes.positions) {
-    summary.peak_line_load = std::max(summary.peak_line_load, position.peak_load.maxCoeff());
-    summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
-    if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
-    summary.tip_edge_share = std::fmax(summary.tip_edge_share, position.tip_edge_share);
-    summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
-  }
+  for (const LoadedPosition& position : extremes.positions) summary.include(position);
   summary.load_factor = summary.peak_line_load / model.mean_line_load(cycle.force);
 }
 

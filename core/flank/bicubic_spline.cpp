@@ -179,8 +179,4 @@ SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces) {
   return fit;
 }
 
-SplineFit interpolating_spline(const GridSamples& samples) {
-  return fit_spline(samples, {most_spline_pieces(static_cast<int>(samples.u.size())), most_spline_pieces(static_cast<int>(samples.v.size()))});
-}
-
 }  // namespace flankwright

@@ -87,7 +87,4 @@ struct SplineFit {
 /// @param pieces   1 .. most_spline_pieces() along each direction (asserted)
 SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces);
 
-/// The spline through all samples: fit_spline() with most_spline_pieces() along each direction.
-SplineFit interpolating_spline(const GridSamples& samples);
-
 }  // namespace flankwright

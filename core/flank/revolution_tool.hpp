@@ -16,9 +16,4 @@ namespace flankwright {
 /// @throws InvalidInput "arc_radius", or "pair.helix_angle" for a helical pair
 double parabola_of_arc(const GearPair& pair, Member member, double arc_radius);
 
-/// Inverse of parabola_of_arc(): the arc radius [mm] for a wanted coefficient, infinite for 0.
-/// @throws InvalidInput "coefficient" outside 0 <= a < tan^2(alpha) r_b1^2 / (2 r_b2 rho_rel), where the arc shrinks to nothing; or
-///                      "pair.helix_angle"
-double arc_for_parabola(const GearPair& pair, Member member, double coefficient);
-
 }  // namespace flankwright

@@ -76,16 +76,6 @@ bool acts(const MeshParameter& parameter, ConditionPart part) {
   return !(part(only) == FlankCondition{});
 }
 
-bool has_other_part(const FlankCondition& condition) {
-  const auto shaped = [](const Modification& m) {
-    const bool twisted_by_process = m.process.twists() && has_lead_modification(m);
-    return m.topography != nullptr || twisted_by_process || only(m, ModificationClass::Topography) != Modification{};
-  };
-  const auto twisted = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty(); };
-  return shaped(condition.modification.pinion) || shaped(condition.modification.wheel) || twisted(condition.error.pinion) ||
-         twisted(condition.error.wheel) || condition.misalignment.centre_distance != 0.0;
-}
-
 LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile, const ContactPeaks& combined) {
   const auto triple = [&](ContactPeaks::Pair ContactPeaks::*which, LinePeak ContactPeaks::Pair::*of, int power) {
     const auto factor = [&](const ContactPeaks& peaks) { return peak_ratio(peaks, perfect, which, of, power); };

@@ -21,8 +21,6 @@ FlankCondition whole_condition(const FlankCondition& condition);
 using ConditionPart = FlankCondition (*)(const FlankCondition&);
 /// Whether a part of a condition depends on a parameter.
 bool acts(const MeshParameter& parameter, ConditionPart part);
-/// Part of the condition is neither lead nor profile.
-bool has_other_part(const FlankCondition& condition);
 
 /// Whether shafts, bearings, housing and the other meshes of a unit deflect in a part of a condition. What they open along the face is a deviation of the lead,
 /// as it is in ISO 6336-1 (f_sh): they belong to the lead part and to the whole. The perfect pair and the profile part have rigid shafts.

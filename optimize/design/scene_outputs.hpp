@@ -11,7 +11,6 @@ namespace flankwright {
 /// Value of an output: the largest of its candidates, or the least where the row says so.
 /// @throws std::runtime_error where the cycle is not usable(): a solver counts it and goes on
 double output_value(const ObjectiveTerm& term, const LoadedScene& scene);
-inline double output_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle) { return output_value(term, {model, cycle}); }
 
 /// The same with extremes between the positions, and its estimated error, inside unit; the error is NaN where none was
 /// estimated. Outputs without a figure in the summary are those of the positions.
@@ -25,16 +24,9 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene
 /// A harmonic's are its directions, all of them; with margin 0 the amplitude itself.
 /// @param margin  0 keeps the peak only
 std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const LoadedScene& scene, double margin, std::size_t most);
-inline std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, double margin,
-                                                     std::size_t most) {
-  return leading_candidates(term, {model, cycle}, margin, most);
-}
 
 /// Value and exact gradient of one candidate; the gradient stays empty where the cycle carries no derivatives. At a harmonic's
 /// zero, where the amplitude (whole_output) has a kink, its gradient is 0, one of its subgradients.
 SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene);
-inline SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model, const LoadedCycle& cycle) {
-  return candidate_value(term, candidate, {model, cycle});
-}
 
 }  // namespace flankwright

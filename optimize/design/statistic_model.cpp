@@ -9,10 +9,18 @@ namespace flankwright {
 
 namespace {
 
-constexpr std::size_t most_linear = 3;  // analyses of a draw that are kept beside each other
+/// Analyses of one draw in the maximum r_sk: known_[draw].size() <= most_linear, >= 2. The first stays, which is that of the accepted design where
+/// the draw was analysed there; of those that rejected steps add, the oldest goes. A rejected step halves the box, so that the newest lie nearest to
+/// the next step. Each costs up to most_peaks rows a term in every seen(). No measurement chose 3 over its neighbours.
+constexpr std::size_t most_linear = 3;
 
-/// Candidates of one output and draw: within this share of its peak, and at most so many.
+/// Candidates u_j of an output u in a draw that are continued along their gradients: u_j >= (1 - peak_margin) u, 0 < peak_margin < 1. What lies lower
+/// is not foreseen until an analysis finds it as a peak, so that a step of the model is trusted as long as it raises nothing by more than 1/(1 -
+/// peak_margin) = 2.5 times against the peak; a step that does gains less than promised, and is rejected where it gains nothing. A wide margin suits
+/// the first steps, which are up to half of a variable's range. No measurement chose the value.
 constexpr double peak_margin = 0.6;
+/// At most so many of these candidates, the largest first, >= 1. The bound is that of memory and work: draws x most_linear x terms x most_peaks rows
+/// of gradients and values, 3 MB for 512 draws of one term and five variables. No measurement chose the value.
 constexpr std::size_t most_peaks = 40;
 
 double model_growth(const Objective& objective) {

@@ -15,6 +15,7 @@
 #include "core/flank/modifications/modification.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
 #include "optimize/design/design_task.hpp"
+#include "optimize/solvers/solver_options.hpp"
 #include "studies/study/assessment_table.hpp"
 #include "studies/study/life_table.hpp"
 #include "studies/study/scatter_table.hpp"
@@ -70,7 +71,7 @@ struct GivenGrid {
 struct OptimiseTable {
   std::vector<ObjectiveTerm> objective;
   Aggregation over;
-  std::string solver{"nlopt:slsqp"}, finisher{"nlopt:slsqp"};
+  SolverOptions solver{.name = "nlopt:slsqp", .progress = {}, .stop_when = {}};
   std::vector<DesignVariable> variables;
   std::vector<OutputConstraint> constraints;
   std::vector<LinkingConstraint> links;
@@ -82,9 +83,6 @@ struct OptimiseTable {
   int starts{1};
   std::vector<Objective> pareto_objectives;  ///< empty: no front
   int pareto_points{9};
-  int max_evaluations{2000};
-  double max_seconds{std::numeric_limits<double>::infinity()};
-  unsigned long seed{1};
   AssessmentTable assessment;
   ScatterTable scatter;
   GrindableAmounts grindable;

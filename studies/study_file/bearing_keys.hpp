@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -7,11 +8,17 @@
 
 namespace flankwright::studies {
 
+/// The types of bearing that a study can name. Words and values of the key both follow from this list.
+inline constexpr std::array bearing_types{BearingType::DeepGrooveBall, BearingType::AngularContactBall, BearingType::CylindricalRoller,
+                                          BearingType::TaperedRoller};
+
 /// Keys of a bearing's radial stiffness where it depends on the load: a table, or the bearing's type and its rolling elements.
 /// @param list  "unit.joints[]", the table that the keys belong to
 template <ShaftBearing& (*bearing)(StudyBuilder&, Member)>
 std::vector<SchemaKey> bearing_law_rows(const std::string& list) {
   using enum ValueKind;
+  std::vector<std::string> type_names;
+  for (const BearingType type : bearing_types) type_names.push_back(name_of(type));
   // A row is read as a row:
   // clang-format off
   return {
@@ -21,9 +28,9 @@ std::vector<SchemaKey> bearing_law_rows(const std::string& list) {
       {.path = list + ".deflection_table", .kind = NumberList, .quantity = Quantity::Deviation, .range = from_zero(1e5), .fallback = "(none)",
        .meaning = "radial deflections under the forces of force_table, increasing; without the clearance",
        .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.table_deflection = v.numbers; }},
-      {.path = list + ".type", .kind = Word, .words = {"deep_groove_ball", "angular_contact_ball", "cylindrical_roller", "tapered_roller"},
-       .fallback = "(none: a constant stiffness)", .meaning = "the bearing yields radially as Palmgren's formula for this type has it; instead of radial_stiffness",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.type = static_cast<BearingType>(v.integer + 1); }},
+      {.path = list + ".type", .kind = Word, .words = type_names, .fallback = "(none: a constant stiffness)",
+       .meaning = "the bearing yields radially as Palmgren's formula for this type has it; instead of radial_stiffness",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.type = bearing_types[static_cast<std::size_t>(v.integer)]; }},
       {.path = list + ".elements", .kind = Integer, .range = {.low = 3, .high = 1000}, .fallback = "(none; a type needs it)", .meaning = "Z, balls or rollers of all rows",
        .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.elements = static_cast<int>(v.integer); }},
       {.path = list + ".element_diameter", .quantity = Quantity::Length, .range = any_length, .fallback = "(none; a type of ball bearing needs it)", .meaning = "D, of the balls",

@@ -116,7 +116,7 @@ std::string read_table_file(const std::string& path, std::size_t largest) {
     text.resize(before + static_cast<std::size_t>(file.gcount()));
   }
   if (text.size() > largest) {
-    throw StudyErrors({{path, 0, 0, "", "larger", "allowed is a file of at most " + std::to_string(largest) + " bytes"}});
+    throw StudyErrors({{path, 0, 0, "file", "larger", "allowed is a file of at most " + std::to_string(largest) + " bytes"}});
   }
   return text;
 }

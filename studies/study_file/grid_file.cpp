@@ -4,15 +4,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 #include <tuple>
 #include <vector>
 
 #include "core/base/units.hpp"
+#include "studies/study_file/column_table.hpp"
 #include "studies/study_file/grid_header.hpp"
-#include "studies/study/study_errors.hpp"
 
 namespace flankwright::studies {
 
@@ -37,11 +34,6 @@ struct Row {
   bool is_at(const Row& other) const { return radius() == other.radius() && z() == other.z(); }
 };
 
-struct Cell {
-  std::string_view text;  ///< without the blanks around it
-  int column;             ///< of its first character in the line, from 1
-};
-
 std::string text_of(double number) {
   std::array<char, 32> digits{};
   const auto [end, status] = std::to_chars(digits.data(), digits.data() + digits.size(), number);
@@ -49,9 +41,9 @@ std::string text_of(double number) {
 }
 
 /// Cells between separators; one in double quotes may contain separators.
-std::vector<Cell> cells_of(std::string_view line, char separator) {
+std::vector<TableCell> cells_of(std::string_view line, char separator) {
   constexpr std::string_view blanks = " \t";
-  std::vector<Cell> cells;
+  std::vector<TableCell> cells;
   for (std::size_t start = 0; start <= line.size();) {
     std::size_t first = start;
     while (first < line.size() && line[first] != separator && blanks.find(line[first]) != std::string_view::npos) ++first;
@@ -80,10 +72,7 @@ bool is_number(std::string_view text, double& number) {
 }
 
 [[noreturn]] void refuse(const std::string& file, int line, int column, const std::string& key, std::string_view value, const std::string& allowed) {
-  constexpr std::size_t most_shown = 60;
-  std::string shown(value.substr(0, most_shown));
-  if (value.size() > most_shown) shown += "...";
-  throw StudyErrors({{file, line, column, key, shown, "allowed is " + allowed}});
+  refuse_cell(file, line, column, key, value, "allowed is " + allowed);
 }
 
 /// A grid file, line by line.
@@ -138,7 +127,7 @@ class GridText {
       separator_ = separator;
       if (separator != '\0' && line_.find(separator) != std::string_view::npos) break;
     }
-    for (const Cell& cell : cells_of(line_, separator_)) {
+    for (const TableCell& cell : cells_of(line_, separator_)) {
       const auto column = grid_column(cell.text);
       if (!column || std::ranges::find(columns_, column->quantity, &GridColumn::quantity) != columns_.end()) {
         refuse(file_, number_, cell.column, "column", cell.text, names_allowed);
@@ -150,8 +139,8 @@ class GridText {
 
   /// True where the line behind the header holds units and no numbers; they belong to the columns that have none.
   bool read_units() {
-    const std::vector<Cell> cells = cells_of(line_, separator_);
-    if (cells.size() != columns_.size() || !std::ranges::all_of(cells, [](const Cell& cell) { return grid_unit(cell.text).has_value(); }))
+    const std::vector<TableCell> cells = cells_of(line_, separator_);
+    if (cells.size() != columns_.size() || !std::ranges::all_of(cells, [](const TableCell& cell) { return grid_unit(cell.text).has_value(); }))
       return false;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       GridColumn& column = columns_[i];
@@ -162,7 +151,7 @@ class GridText {
   }
 
   Row read_row() const {
-    const std::vector<Cell> cells = cells_of(line_, separator_);
+    const std::vector<TableCell> cells = cells_of(line_, separator_);
     if (cells.size() != columns_.size()) {
       refuse(file_, number_, 1, "line", line_,
              std::to_string(columns_.size()) + " numbers with the separator of the first line" +
@@ -237,22 +226,6 @@ MeasuredGrid parse_grid(std::string_view text, const std::string& name) {
   return grid;
 }
 
-MeasuredGrid read_grid(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::error_code no_status;
-  if (!file || std::filesystem::is_directory(path, no_status)) {
-    throw StudyErrors({{path, 0, 0, "", "", "the file cannot be read"}});
-  }
-  std::string text;
-  constexpr std::streamsize part = 1 << 16;
-  while (file && text.size() <= largest_file) {
-    const std::size_t before = text.size();
-    text.resize(before + static_cast<std::size_t>(part));
-    file.read(text.data() + before, part);
-    text.resize(before + static_cast<std::size_t>(file.gcount()));
-  }
-  if (text.size() > largest_file) refuse(path, 0, 0, "file", "larger", "a file of at most " + std::to_string(largest_file) + " bytes");
-  return parse_grid(text, path);
-}
+MeasuredGrid read_grid(const std::string& path) { return parse_grid(read_table_file(path, largest_file), path); }
 
 }  // namespace flankwright::studies

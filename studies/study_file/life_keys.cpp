@@ -43,49 +43,29 @@ void change_grades(StudyBuilder& builder, Member m, const Change& change) {
   }
 }
 
+// A row is read as a row:
+// clang-format off
+
 /// The keys of one kind of S-N curve, of both gears or of one.
 template <Curves curves, bool of_both>
 void append_curve(std::vector<SchemaKey>& rows, const std::string& table, const char* kind, const char* limit_meaning) {
   const std::string name = table + "material." + kind, none = of_both ? "(none)" : "(as [material])";
-  rows.push_back({.path = name + "_endurance_limit",
-                  .quantity = Quantity::Stress,
-                  .range = strength_range,
-                  .fallback = of_both ? "(that of strength, else none)" : none,
-                  .meaning = limit_meaning,
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.limit = v.number; });
-                  }});
-  rows.push_back({.path = name + "_sn_curve",
-                  .kind = WordOrTable,
-                  .words = {"through_hardened", "case_hardened", "nitrided", "nitrocarburised"},  // as LifeFactors
-
-                  .fallback = of_both ? "(that of strength.kind, else case_hardened)" : "(as [material])",
-                  .meaning = "life factors of ISO 6336 for a heat treatment, or a curve of one's own",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    if (!v.text.empty())
-                      change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c = {c.limit, static_cast<LifeFactors>(v.integer)}; });
-                  }});
-  rows.push_back({.path = name + "_sn_curve.exponent",
-                  .range = slope_range,
-                  .fallback = "(that of the life factors)",
-                  .meaning = "p of N ~ stress^-p above the endurance limit; needs knee",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.exponent = v.number; });
-                  }});
-  rows.push_back({.path = name + "_sn_curve.knee",
-                  .range = cycles_to_knee,
-                  .fallback = "(that of the life factors)",
-                  .meaning = "load cycles that the endurance limit is borne for; needs exponent",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.knee = v.number; });
-                  }});
-  rows.push_back({.path = name + "_sn_curve.exponent_beyond",
-                  .range = slope_range,
-                  .fallback = "(exponent: Miner's elementary rule)",
-                  .meaning = "p below the endurance limit, at least exponent",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.exponent_beyond = v.number; });
-                  }});
+  rows.insert(rows.end(), {
+      {.path = name + "_endurance_limit", .quantity = Quantity::Stress, .range = strength_range,
+       .fallback = of_both ? "(that of strength, else none)" : none, .meaning = limit_meaning,
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.limit = v.number; }); }},
+      {.path = name + "_sn_curve", .kind = WordOrTable, .words = {"through_hardened", "case_hardened", "nitrided", "nitrocarburised"},  // as LifeFactors
+       .fallback = of_both ? "(that of strength.kind, else case_hardened)" : "(as [material])", .meaning = "life factors of ISO 6336 for a heat treatment, or a curve of one's own",
+       .store = [](StudyBuilder& d, Member m, const Value& v) {
+         if (!v.text.empty()) change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c = {c.limit, static_cast<LifeFactors>(v.integer)}; });
+       }},
+      {.path = name + "_sn_curve.exponent", .range = slope_range, .fallback = "(that of the life factors)", .meaning = "p of N ~ stress^-p above the endurance limit; needs knee",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.exponent = v.number; }); }},
+      {.path = name + "_sn_curve.knee", .range = cycles_to_knee, .fallback = "(that of the life factors)", .meaning = "load cycles that the endurance limit is borne for; needs exponent",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.knee = v.number; }); }},
+      {.path = name + "_sn_curve.exponent_beyond", .range = slope_range, .fallback = "(exponent: Miner's elementary rule)", .meaning = "p below the endurance limit, at least exponent",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.exponent_beyond = v.number; }); }},
+  });
 }
 
 /// The keys of a material named by ISO 6336-5, of both gears or of one.
@@ -97,41 +77,23 @@ void append_grade(std::vector<SchemaKey>& rows, const std::string& table) {
     for (int i = 0; i < count; ++i) words.emplace_back(to_string(static_cast<decltype(first)>(i)));
     return words;
   };
-  rows.push_back({.path = name + "kind",
-                  .kind = Word,
-                  .words = words_of(material_kind_count, MaterialKind{}),
-                  .fallback = none,
-                  .meaning = "material and heat treatment by ISO 6336-5, whose table gives the endurance limits that are not given; needs hardness",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.kind = static_cast<MaterialKind>(v.integer); });
-                  }});
-  rows.push_back({.path = name + "quality",
-                  .kind = Word,
-                  .words = words_of(3, MaterialQuality{}),
-                  .fallback = of_both ? "(MQ)" : none,
-                  .meaning = "of material and heat treatment, ISO 6336-5",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.quality = static_cast<MaterialQuality>(v.integer); });
-                  }});
-  rows.push_back(
-      {.path = name + "hardness",
-       .range = above_zero(1200.0),
-       .fallback = none,
+  rows.insert(rows.end(), {
+      {.path = name + "kind", .kind = Word, .words = words_of(material_kind_count, MaterialKind{}), .fallback = none,
+       .meaning = "material and heat treatment by ISO 6336-5, whose table gives the endurance limits that are not given; needs hardness",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.kind = static_cast<MaterialKind>(v.integer); }); }},
+      {.path = name + "quality", .kind = Word, .words = words_of(3, MaterialQuality{}), .fallback = of_both ? "(MQ)" : none,
+       .meaning = "of material and heat treatment, ISO 6336-5",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.quality = static_cast<MaterialQuality>(v.integer); }); }},
+      {.path = name + "hardness", .range = above_zero(1200.0), .fallback = none,
        .meaning = "of the surface, HBW of normalised steel and cast iron, else HV; the table has a range for each kind and quality",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.hardness = v.number; }); }});
-  rows.push_back({.path = name + "core_hardness",
-                  .range = {.low = 25.0, .high = 60.0},
-                  .fallback = of_both ? "(25)" : none,
-                  .meaning = "HRC, of case_hardened MQ alone: from 30 on its sigma_Flim is 500 MPa, below 425 MPa",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.core_hardness = v.number; });
-                  }});
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.hardness = v.number; }); }},
+      {.path = name + "core_hardness", .range = {.low = 25.0, .high = 60.0}, .fallback = of_both ? "(25)" : none,
+       .meaning = "HRC, of case_hardened MQ alone: from 30 on its sigma_Flim is 500 MPa, below 425 MPa",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.core_hardness = v.number; }); }},
+  });
 }
 
 }  // namespace
-
-// A row is read as a row:
-// clang-format off
 
 std::vector<SchemaKey> life_rows() {
   std::vector<SchemaKey> rows{

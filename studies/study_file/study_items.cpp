@@ -4,8 +4,6 @@
 
 namespace flankwright::studies {
 
-bool is_not_table(const toml::node& node) { return !node.is_table(); }
-
 bool is_filled_table(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr || table->empty()) return true;

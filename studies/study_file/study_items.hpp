@@ -18,9 +18,6 @@ struct Item {
 
 using IsItem = std::function<bool(const toml::node&)>;
 
-/// An item is all that is no table.
-bool is_not_table(const toml::node& node);
-
 /// A table that says something itself, or is empty.
 bool is_filled_table(const toml::node& node);
 

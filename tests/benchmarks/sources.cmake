@@ -1,6 +1,6 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_solvers.cpp)
 list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/reference_solvers_test.cpp)
-foreach(file contact_mesh mesh_layers contact_run rounded_tip held_structure own_answer outside_fillet contact_truth_test)
+foreach(file contact_mesh tooth_surface mesh_layers contact_run rounded_tip held_structure own_answer outside_fillet contact_truth_test)
   list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/contact_truth/${file}.cpp)
 endforeach()
 list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/beams/beam_answer.cpp ${CMAKE_CURRENT_LIST_DIR}/beams/beam_truth_test.cpp)

@@ -6,6 +6,7 @@
 #include "core/compliance/finite_element/solve_influence_table.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -14,14 +15,7 @@ namespace {
 
 constexpr double kFace = 4;
 
-GearPair twins() {
-  PairData data;
-  data.normal_module = 1;
-  data.helix_angle = 20 * units::deg;
-  data.pinion.teeth = data.wheel.teeth = 15;
-  data.pinion.face_width = data.wheel.face_width = kFace;
-  return make_gear_pair(data);
-}
+GearPair twins() { return pair_cases::pair(15, 15, 20, 1, kFace); }
 
 GearToMesh gear_to_mesh() { return test::gear_of(15, 20, kFace); }
 

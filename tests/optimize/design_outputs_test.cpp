@@ -40,7 +40,7 @@ std::vector<double> all_values(const ObjectiveTerm& term, const MeshModel& model
     const int others = term.output == Output::TePeakToPeak     ? n
                        : term.output == Output::PeakRootStress ? static_cast<int>(position.root_stress.size())
                                                                : static_cast<int>(position.load.line_load.size());
-    for (int j = 0; j < others; ++j) values.push_back(candidate_value(term, {i, j}, model, cycle).value);
+    for (int j = 0; j < others; ++j) values.push_back(candidate_value(term, {i, j}, {model, cycle}).value);
   }
   return values;
 }
@@ -64,14 +64,14 @@ TEST_CASE("An output is what the cycle itself shows", "[optimize][design][output
         load = std::max(load, position.load.line_load.maxCoeff());
       }
       constexpr double round_off = 1e-12;
-      CHECK(output_value(term(Output::PeakContactStress), model, cycle) == stress);
-      CHECK(output_value(term(Output::PeakLineLoad), model, cycle) == load);
-      CHECK(output_value(term(Output::PeakRootStress), model, cycle) == summary.peak_root_stress);
-      CHECK(output_value(term(Output::TePeakToPeak), model, cycle) == te.maxCoeff() - te.minCoeff());
-      CHECK(output_value(term(Output::LoadFactor), model, cycle) == Approx(summary.load_factor).epsilon(round_off));
+      CHECK(output_value(term(Output::PeakContactStress), {model, cycle}) == stress);
+      CHECK(output_value(term(Output::PeakLineLoad), {model, cycle}) == load);
+      CHECK(output_value(term(Output::PeakRootStress), {model, cycle}) == summary.peak_root_stress);
+      CHECK(output_value(term(Output::TePeakToPeak), {model, cycle}) == te.maxCoeff() - te.minCoeff());
+      CHECK(output_value(term(Output::LoadFactor), {model, cycle}) == Approx(summary.load_factor).epsilon(round_off));
       const std::vector<double> harmonics = harmonic_amplitudes({te.begin(), te.end()});
       for (int order = 1; order <= 3; ++order) {
-        CHECK(output_value(term(Output::TeHarmonic, order), model, cycle) ==
+        CHECK(output_value(term(Output::TeHarmonic, order), {model, cycle}) ==
               Approx(harmonics[static_cast<std::size_t>(order) - 1]).margin(round_off * te.cwiseAbs().maxCoeff()));
       }
     }
@@ -92,20 +92,20 @@ TEST_CASE("Leading candidates are the peak and all that come near it", "[optimiz
       const LoadedCycle& cycle = cycle_of(analysis, s);
       const std::vector<double> values = all_values(output, model, cycle);
       const double peak = *std::max_element(values.begin(), values.end());
-      CHECK(output_value(output, model, cycle) == peak);
+      CHECK(output_value(output, {model, cycle}) == peak);
       const auto near = std::count_if(values.begin(), values.end(), [&](double v) { return v >= (1.0 - margin) * peak; });
 
-      const std::vector<PeakCandidate> leading = leading_candidates(output, model, cycle, margin, 100000);
+      const std::vector<PeakCandidate> leading = leading_candidates(output, {model, cycle}, margin, 100000);
       CHECK(static_cast<long>(leading.size()) == near);
       double last = peak;
-      CHECK(candidate_value(output, leading.front(), model, cycle).value == peak);
+      CHECK(candidate_value(output, leading.front(), {model, cycle}).value == peak);
       for (const PeakCandidate& candidate : leading) {
-        const double value = candidate_value(output, candidate, model, cycle).value;
+        const double value = candidate_value(output, candidate, {model, cycle}).value;
         CHECK(value <= last);
         last = value;
       }
-      CHECK(leading_candidates(output, model, cycle, margin, 2).size() == 2);
-      CHECK(leading_candidates(output, model, cycle, 0.0, 100).front() == leading.front());
+      CHECK(leading_candidates(output, {model, cycle}, margin, 2).size() == 2);
+      CHECK(leading_candidates(output, {model, cycle}, 0.0, 100).front() == leading.front());
     }
   }
 }
@@ -141,8 +141,8 @@ TEST_CASE("Without derivatives in the cycle a candidate has a value and no gradi
   DesignProblem problem(helical({0.0}));
   const DesignAnalysis& analysis = problem.analyse(problem.start(), false);
   for (const ObjectiveTerm& output : all_outputs()) {
-    const PeakCandidate leader = leading_candidates(output, problem.model(0), cycle_of(analysis, 0), 0.0, 1).front();
-    const SmoothValue value = candidate_value(output, leader, problem.model(0), cycle_of(analysis, 0));
+    const PeakCandidate leader = leading_candidates(output, {problem.model(0), cycle_of(analysis, 0)}, 0.0, 1).front();
+    const SmoothValue value = candidate_value(output, leader, {problem.model(0), cycle_of(analysis, 0)});
     CHECK(value.value > 0.0);
     CHECK(value.gradient.size() == 0);
   }
@@ -154,8 +154,8 @@ TEST_CASE("An output of a cycle that failed somewhere is refused", "[optimize][d
   cycle.failures = 1;
   for (const ObjectiveTerm& output : all_outputs()) {
     CAPTURE(output.name);
-    CHECK_THROWS_AS(output_value(output, problem.model(0), cycle), std::runtime_error);
-    CHECK_THROWS_AS(candidate_value(output, {0, 0}, problem.model(0), cycle), std::runtime_error);
+    CHECK_THROWS_AS(output_value(output, {problem.model(0), cycle}), std::runtime_error);
+    CHECK_THROWS_AS(candidate_value(output, {0, 0}, {problem.model(0), cycle}), std::runtime_error);
   }
 }
 
@@ -167,11 +167,11 @@ TEST_CASE("A harmonic's directions never exceed its amplitude and fall short of 
     const DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
     for (int s = 0; s < problem.scenes(); ++s) {
       const LoadedCycle& cycle = cycle_of(analysis, s);
-      const double amplitude = output_value(first, problem.model(s), cycle);
-      CHECK(candidate_value(first, whole_output, problem.model(s), cycle).value == amplitude);
+      const double amplitude = output_value(first, {problem.model(s), cycle});
+      CHECK(candidate_value(first, whole_output, {problem.model(s), cycle}).value == amplitude);
       double largest = -INFINITY;
-      for (const PeakCandidate& direction : leading_candidates(first, problem.model(s), cycle, 0.1, 1)) {
-        largest = std::max(largest, candidate_value(first, direction, problem.model(s), cycle).value);
+      for (const PeakCandidate& direction : leading_candidates(first, {problem.model(s), cycle}, 0.1, 1)) {
+        largest = std::max(largest, candidate_value(first, direction, {problem.model(s), cycle}).value);
       }
       constexpr double round_off = 1e-13;
       CHECK(largest <= amplitude * (1.0 + round_off));
@@ -203,7 +203,7 @@ TEST_CASE("Where one pair carries all the load the effective contact ratio is on
   };
   constexpr double round_off = 1e-13;
   load_teeth([](int tooth, const std::map<int, double>& all) { return tooth == all.begin()->first ? 1.0 : 0.0; });
-  CHECK(output_value(task.objective.front(), model, cycle) == Approx(1.0).epsilon(round_off));
+  CHECK(output_value(task.objective.front(), {model, cycle}) == Approx(1.0).epsilon(round_off));
   load_teeth([](int, const std::map<int, double>&) { return 1.0; });
   double mean_teeth = 0.0;
   for (const MeshPosition& position : model.positions) {
@@ -211,7 +211,7 @@ TEST_CASE("Where one pair carries all the load the effective contact ratio is on
     for (const ContactPoint& point : position.points) teeth.insert(point.tooth);
     mean_teeth += static_cast<double>(teeth.size()) / static_cast<double>(model.positions.size());
   }
-  CHECK(output_value(task.objective.front(), model, cycle) == Approx(mean_teeth).epsilon(round_off));
+  CHECK(output_value(task.objective.front(), {model, cycle}) == Approx(mean_teeth).epsilon(round_off));
 }
 
 TEST_CASE("Stress and force on tip edges are outputs with the gradients of differences, 0 where tips are sharp",
@@ -228,13 +228,13 @@ TEST_CASE("Stress and force on tip edges are outputs with the gradients of diffe
   for (const Output output : {Output::EdgeStress, Output::TipEdgeShare}) {
     const ObjectiveTerm edge = term(output);
     CAPTURE(edge.name);
-    CHECK(output_value(edge, sharp.model(0), cycle_of(sharp.analyse(x, true), 0)) == 0.0);
+    CHECK(output_value(edge, {sharp.model(0), cycle_of(sharp.analyse(x, true), 0)}) == 0.0);
     const DesignAnalysis at = rounded.analyse(x, true);
     const MeshModel& model = rounded.model(0);
     const CycleSummary summary = summarise(model, cycle_of(at, 0));
-    CHECK(output_value(edge, model, cycle_of(at, 0)) == (output == Output::EdgeStress ? summary.edge_stress : summary.tip_edge_share));
-    const PeakCandidate peak = leading_candidates(edge, model, cycle_of(at, 0), 0.0, 1).front();
-    const auto value = [&](const DesignAnalysis& a) { return candidate_value(edge, peak, model, cycle_of(a, 0)); };
+    CHECK(output_value(edge, {model, cycle_of(at, 0)}) == (output == Output::EdgeStress ? summary.edge_stress : summary.tip_edge_share));
+    const PeakCandidate peak = leading_candidates(edge, {model, cycle_of(at, 0)}, 0.0, 1).front();
+    const auto value = [&](const DesignAnalysis& a) { return candidate_value(edge, peak, {model, cycle_of(a, 0)}); };
     REQUIRE(value(at).value > 0.0);
     const Eigen::VectorXd exact = rounded.scaled(value(at).gradient);
     for (int i = 0; i < rounded.variables(); ++i) {
@@ -251,11 +251,11 @@ TEST_CASE("The edge load is the peak line load where the margin covers the whole
   ObjectiveTerm edge = term(Output::EdgeLoad);
   for (int s = 0; s < problem.scenes(); ++s) {
     const LoadedCycle& cycle = cycle_of(analysis, s);
-    const double peak = output_value(term(Output::PeakLineLoad), problem.model(s), cycle);
+    const double peak = output_value(term(Output::PeakLineLoad), {problem.model(s), cycle});
     double last = 0.0;
     for (double margin : {0.01, 0.05, 0.2, 0.5}) {
       edge.edge_margin = margin;
-      const double load = output_value(edge, problem.model(s), cycle);
+      const double load = output_value(edge, {problem.model(s), cycle});
       CHECK(load >= last);
       last = load;
     }

@@ -157,8 +157,8 @@ TEST_CASE("Measures weigh the outputs in the units of a report", "[optimize][des
   double worst = 0.0;
   for (int s = 0; s < problem.scenes(); ++s) {
     const LoadedCycle& cycle = analysis.cycles[static_cast<std::size_t>(s)];
-    const double te_um = 1e3 * output_value(task.objective[0], problem.model(s), cycle);
-    const double stress = output_value(task.objective[1], problem.model(s), cycle);
+    const double te_um = 1e3 * output_value(task.objective[0], {problem.model(s), cycle});
+    const double stress = output_value(task.objective[1], {problem.model(s), cycle});
     constexpr double round_off = 1e-14;
     CHECK(problem.scene_measure(analysis, s) == Approx(2.0 * te_um + 0.01 * stress).epsilon(round_off));
     worst = std::max(worst, problem.scene_measure(analysis, s));

@@ -1,3 +1,4 @@
+#include "tests/core/gear/pair_cases.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 #include "tests/core/load/synthetic_root_stress.hpp"
@@ -24,14 +25,8 @@ void add_scenes(DesignTask& task, double torque, const std::vector<double>& misa
 }  // namespace
 
 DesignTask helical(const std::vector<double>& misalignments_um, int positions) {
-  PairData data;
-  data.normal_module = 10.0;
-  data.helix_angle = 30.0 * units::deg;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = 54;
-  data.pinion.face_width = data.wheel.face_width = 120.0;
   DesignTask task;
-  task.pair = make_gear_pair(data);
+  task.pair = pair_cases::pair(18, 54, 30, 10.0, 120.0);
   task.material.pinion = task.material.wheel = {209000.0, 0.3};
   task.resolution = {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(positions)};
   task.root_stress = std::make_shared<const mesh_cases::SyntheticRootStress>(task.pair);
@@ -44,13 +39,8 @@ DesignTask helical(const std::vector<double>& misalignments_um, int positions) {
 }
 
 DesignTask spur(const std::vector<double>& misalignments_um) {
-  PairData data;
-  data.normal_module = 4.0;
-  data.pinion.teeth = 24;
-  data.wheel.teeth = 36;
-  data.pinion.face_width = data.wheel.face_width = 40.0;
   DesignTask task;
-  task.pair = make_gear_pair(data);
+  task.pair = pair_cases::pair(24, 36, 0, 4.0, 40.0);
   task.resolution = {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(8)};
   add_scenes(task, 300.0, misalignments_um);
   task.variables = {variable("lead_crowning", parameter_of("lead_crowning"), 0.0, 40.0),

@@ -42,14 +42,14 @@ TEST_CASE("A tied modification follows its variable, and gradients go through it
   CHECK(at.modification.wheel.addendum_crowning == Approx(0.030 - problem.unscaled(x, 2)).epsilon(round_off));
 
   const ObjectiveTerm stress = term(Output::PeakContactStress);
-  const auto leader = leading_candidates(stress, problem.model(1), at.cycles[1], 0.0, 1).front();
-  const Eigen::VectorXd exact = problem.scaled(candidate_value(stress, leader, problem.model(1), at.cycles[1]).gradient);
+  const auto leader = leading_candidates(stress, {problem.model(1), at.cycles[1]}, 0.0, 1).front();
+  const Eigen::VectorXd exact = problem.scaled(candidate_value(stress, leader, {problem.model(1), at.cycles[1]}).gradient);
   REQUIRE(exact.size() == 3);
   constexpr double step = 2e-5, discretisation = 1e-6;
   for (int i = 0; i < 3; ++i) {
     const auto value = [&](double by) {
       const DesignAnalysis moved = problem.analyse(x + by * Eigen::VectorXd::Unit(3, i), false);
-      return candidate_value(stress, leader, problem.model(1), moved.cycles[1]).value;
+      return candidate_value(stress, leader, {problem.model(1), moved.cycles[1]}).value;
     };
     CHECK(exact[i] == Approx((value(step) - value(-step)) / (2.0 * step)).margin(discretisation * exact.cwiseAbs().maxCoeff()));
   }

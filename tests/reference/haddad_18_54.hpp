@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/gear/gear_data.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 /// The 18:54 helical pair of Haddad's sample outputs and the figures published with it.
 ///
@@ -9,15 +10,7 @@
 /// outputs.
 namespace flankwright::reference::haddad_18_54 {
 
-inline PairData pair_data() {
-  PairData data;
-  data.normal_module = 10.0;
-  data.helix_angle = 30 * units::deg;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = 54;
-  data.pinion.face_width = data.wheel.face_width = 120.0;
-  return data;
-}
+inline PairData pair_data() { return pair_cases::pair_data(18, 54, 30, 10.0, 120.0); }
 
 inline constexpr double pinion_tip_radius = 113.923;      // mm
 inline constexpr double wheel_tip_radius = 321.769;       // mm

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/gear/gear_data.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 /// The 30:100 helical pair of NASA TM-107451 and what the report states about it.
 ///
@@ -18,13 +19,8 @@
 namespace flankwright::reference::nasa_tm_107451 {
 
 inline PairData pair_data() {
-  PairData data;
-  data.normal_module = units::inch / 5.0;
-  data.helix_angle = 30 * units::deg;
+  PairData data = pair_cases::pair_data(30, 100, 30, units::inch / 5.0, 1.6 * units::inch);
   data.pinion_hand = Hand::Left;
-  data.pinion.teeth = 30;
-  data.wheel.teeth = 100;
-  data.pinion.face_width = data.wheel.face_width = 1.6 * units::inch;
   return data;
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/flank/measured_grid.hpp"
 #include "tests/core/contact/contact_cases.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 #include "tests/reference/leading.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -25,15 +26,7 @@ namespace {
 constexpr double kFace = 92.0, kHalf = 46.0;
 constexpr double kFitRipple = 0.3 * um;  // discretisation: the spline overshoots where a parabola sets in between two of 15 points
 
-GearPair real_pair() {
-  PairData data;
-  data.normal_module = 6.0;
-  data.helix_angle = 24.43 * units::deg;
-  data.pinion.teeth = 17;
-  data.wheel.teeth = 44;
-  data.pinion.face_width = data.wheel.face_width = kFace;
-  return make_gear_pair(data);
-}
+GearPair real_pair() { return pair_cases::pair(17, 44, 24.43, 6.0, kFace); }
 
 /// Zero up to `start`, from there a parabola that reaches 1 at twice that.
 double beyond(double distance, double start) { return distance > start ? std::pow(distance / start - 1, 2) : 0.0; }

@@ -3,6 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
+#include <string>
+
+#include "core/base/error.hpp"
 
 namespace flankwright {
 namespace {
@@ -64,6 +67,15 @@ FaceShape face_shape(double xi, double eta) {
   return shape;
 }
 
+void check_elastic(const Material& material) {
+  if (!(material.youngs_modulus > 0)) {
+    throw InvalidInput("material.youngs_modulus", std::to_string(material.youngs_modulus), "more than 0 MPa");
+  }
+  if (!(material.poissons_ratio >= 0 && material.poissons_ratio < 0.5)) {
+    throw InvalidInput("material.poissons_ratio", std::to_string(material.poissons_ratio), "0 <= nu < 0.5");
+  }
+}
+
 Eigen::Matrix<double, 60, 60> brick_stiffness(const BrickNodes& nodes, const Material& material) {
   // Columns: all derivatives g_ia = dN_i/dx_a at one integration point, times the root of its weight.
   Eigen::Matrix<double, 60, 27> gradients;
@@ -112,19 +124,6 @@ double brick_quality(const BrickNodes& nodes) {
   }
   for (int i = 0; i < 8; ++i) look(kBrickLocal[i][0], kBrickLocal[i][1], kBrickLocal[i][2]);
   return largest > 0 ? smallest / largest : -1;
-}
-
-Eigen::Matrix<double, 6, 1> brick_stress(const BrickNodes& nodes, const BrickNodes& displacements, const Eigen::Vector3d& local,
-                                         const Material& material) {
-  const BrickShape shape = brick_shape(local);
-  const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
-  const Eigen::Matrix3d gradient = displacements * shape.derivatives * jacobian.inverse();
-  const Lame lame(material);
-  Eigen::Matrix3d stress = lame.mu * (gradient + gradient.transpose());
-  stress.diagonal().array() += lame.lambda * gradient.trace();
-  Eigen::Matrix<double, 6, 1> result;
-  result << stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(2, 0);
-  return result;
 }
 
 }  // namespace flankwright

@@ -28,6 +28,9 @@ struct FaceShape {
 };
 FaceShape face_shape(double xi, double eta);
 
+/// @throws InvalidInput  "material.youngs_modulus" not above 0, or "material.poissons_ratio" not 0 <= nu < 0.5
+void check_elastic(const Material& material);
+
 /// Stiffness of a curved isoparametric brick, 60 x 60 [N/mm], unknowns node by node (x, y, z), full 3 x 3 x 3 Gauss
 /// integration: exact for a parallelepiped, and without spurious zero-energy modes. Exactly symmetric.
 ///
@@ -38,9 +41,8 @@ Eigen::Matrix<double, 60, 60> brick_stiffness(const BrickNodes& nodes, const Mat
 /// parallelepiped, not positive where the element is folded or turned inside out.
 double brick_quality(const BrickNodes& nodes);
 
-/// Stress [MPa] at a local position, (xx, yy, zz, xy, yz, zx), from the displacements of the nodes [mm], 3 x 20.
-Eigen::Matrix<double, 6, 1> brick_stress(const BrickNodes& nodes, const BrickNodes& displacements, const Eigen::Vector3d& local,
-                                         const Material& material);
+/// Abscissae of the two-point Gauss rule on [-1, 1]; the weights are 1.
+inline constexpr double gauss2_abscissae[2] = {-0.577350269189625765, 0.577350269189625765};
 
 /// Abscissae and weights of the three-point Gauss rule on [-1, 1].
 inline constexpr double gauss3_abscissae[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};

@@ -8,11 +8,10 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/compliance/finite_element/quadratic_edge.hpp"
 
 namespace flankwright {
 namespace {
-
-constexpr double kGauss2 = 0.577350269189625765;  // abscissa of the two-point rule
 
 /// The three functionals at a local point of a face, on its nodes' displacements, 24 x 3.
 Eigen::Matrix<double, 24, 3> face_stress(const FaceNodes& nodes, double xi, double eta, const Material& material) {
@@ -32,18 +31,6 @@ Eigen::Matrix<double, 24, 3> face_stress(const FaceNodes& nodes, double xi, doub
         shear * (slopes(i, 1) * t + slopes(i, 0) * a);
   }
   return result;
-}
-
-/// Arc length of a quadratic edge through three nodes, from its start to a local position.
-double arc(const Eigen::Matrix<double, 2, 3>& nodes, double to) {
-  const double half = (to + 1) / 2;
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    const double x = -1 + half * (1 + gauss3_abscissae[i]);
-    const Eigen::Vector3d slopes(x - 0.5, -2 * x, x + 0.5);  // of the shape functions of -1, 0, 1
-    sum += gauss3_weights[i] * half * (nodes * slopes).norm();
-  }
-  return sum;
 }
 
 }  // namespace
@@ -66,14 +53,15 @@ struct FilletStress::Layout {
       const auto first = 2 * static_cast<Eigen::Index>(i);
       const int edge[] = {faces[i][0], faces[i][4], faces[i][1]};
       for (int k = 0; k < 3; ++k) profile.col(first + k) = back * mesh.solid.nodes.col(edge[k]).head<2>();
-      for (const double xi : {-kGauss2, kGauss2}) stations.push_back(ends.back() + arc(profile.middleCols<3>(first), xi));
-      ends.push_back(ends.back() + arc(profile.middleCols<3>(first), 1));
+      const EdgeNodes nodes = profile.middleCols<3>(first);
+      for (const double xi : gauss2_abscissae) stations.push_back(ends.back() + arc_length(nodes, xi));
+      ends.push_back(ends.back() + arc_length(nodes, 1));
     }
     for (double& station : stations) station /= ends.back();
     for (std::size_t layer = 0; layer < layers; ++layer) {
       const double middle = (mesh.planes[layer] + mesh.planes[layer + 1]) / 2;
       const double half = (mesh.planes[layer + 1] - mesh.planes[layer]) / 2;
-      heights.insert(heights.end(), {middle - kGauss2 * half, middle + kGauss2 * half});
+      for (const double eta : gauss2_abscissae) heights.push_back(middle + eta * half);
     }
   }
 };
@@ -82,12 +70,7 @@ FilletStress::FilletStress(const GearMesh& mesh, const Material& material) : Fil
 
 FilletStress::FilletStress(const GearMesh& mesh, const Material& material, const Layout& layout)
     : half_width_(mesh.face_width / 2), profile_(layout.profile), ends_(layout.ends), along_(layout.stations), z_(layout.heights) {
-  if (!(material.youngs_modulus > 0)) {
-    throw InvalidInput("material.youngs_modulus", std::to_string(material.youngs_modulus), "more than 0 MPa");
-  }
-  if (!(material.poissons_ratio >= 0 && material.poissons_ratio < 0.5)) {
-    throw InvalidInput("material.poissons_ratio", std::to_string(material.poissons_ratio), "0 <= nu < 0.5");
-  }
+  check_elastic(material);
   const std::vector<MeshFace>& faces = mesh.surfaces(0).fillet;
   const std::size_t elements = layout.elements;
   std::vector<Eigen::Triplet<double>> entries;
@@ -96,9 +79,8 @@ FilletStress::FilletStress(const GearMesh& mesh, const Material& material, const
       const MeshFace& face = faces[layer * elements + i];
       const FaceNodes nodes = mesh.face_nodes(face);
       for (std::size_t point = 0; point < 4; ++point) {
-        const double xi = point % 2 == 0 ? -kGauss2 : kGauss2, eta = point < 2 ? -kGauss2 : kGauss2;
         const auto station = static_cast<int>((2 * layer + point / 2) * 2 * elements + 2 * i + point % 2);
-        const Eigen::Matrix<double, 24, 3> stress = face_stress(nodes, xi, eta, material);
+        const Eigen::Matrix<double, 24, 3> stress = face_stress(nodes, gauss2_abscissae[point % 2], gauss2_abscissae[point / 2], material);
         for (int row = 0; row < 24; ++row) {
           for (int c = 0; c < 3; ++c) entries.emplace_back(3 * face[row / 3] + row % 3, 3 * station + c, stress(row, c));
         }
@@ -115,8 +97,8 @@ double FilletStress::along(const ProfilePoint& point) const {
   constexpr int kParts = 64;  // of an element's half; between them along the chord
   double nearest = INFINITY, found = 0;
   for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
-    const Eigen::Matrix<double, 2, 3> edge = profile_.middleCols<3>(2 * static_cast<Eigen::Index>(i));
-    const auto at = [&](double x) -> Eigen::Vector2d { return edge * Eigen::Vector3d(x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2); };
+    const EdgeNodes edge = profile_.middleCols<3>(2 * static_cast<Eigen::Index>(i));
+    const auto at = [&](double x) -> Eigen::Vector2d { return edge * EdgeShape(x).values; };
     for (int k = -kParts; k < kParts; ++k) {
       const double begin = static_cast<double>(k) / kParts, step = 1.0 / kParts;
       const Eigen::Vector2d from = at(begin), chord = at(begin + step) - from;
@@ -124,7 +106,7 @@ double FilletStress::along(const ProfilePoint& point) const {
       const double distance = (from + t * chord - wanted).norm();
       if (distance < nearest) {
         nearest = distance;
-        found = ends_[i] + arc(edge, begin + t * step);
+        found = ends_[i] + arc_length(edge, begin + t * step);
       }
     }
   }

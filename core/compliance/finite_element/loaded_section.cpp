@@ -9,31 +9,18 @@
 #include "core/base/root.hpp"
 #include "core/compliance/finite_element/load_functional.hpp"
 #include "core/compliance/finite_element/plane_strain.hpp"
+#include "core/compliance/finite_element/quadratic_edge.hpp"
 
 namespace flankwright {
 namespace {
 
-using Edge = Eigen::Matrix<double, 2, 3>;  ///< nodes of an edge: corner, mid-side, corner
-
 constexpr double deepest_yielding = 2;      ///< depth below the root under which the body may as well be rigid: it yields alike under all loads [m_n]
 constexpr double half_width_share = 0.027;  ///< L over the length of the flank, so that the pressure lies on it at the last height
-
-/// The three functions of an edge at local -1 .. 1 and their derivatives.
-struct EdgeShape {
-  Eigen::Vector3d values, derivatives;
-  explicit EdgeShape(double x) : values(0.5 * x * (x - 1), 1 - x * x, 0.5 * x * (x + 1)), derivatives(x - 0.5, -2 * x, x + 0.5) {}
-};
 
 /// use(shape, weight) at three Gauss points in each of n parts of an edge.
 template <typename Use>
 void integrate_edge(int n, Use&& use) {
   for (int i = 0; i < 3 * n; ++i) use(EdgeShape(-1 + (2 * (i / 3) + 1 + gauss3_abscissae[i % 3]) / n), gauss3_weights[i % 3] / n);
-}
-
-Edge nodes_of(const SectionMesh& mesh, const SectionEdge& edge) {
-  Edge nodes;
-  for (int i = 0; i < 3; ++i) nodes.col(i) = mesh.nodes.col(edge[static_cast<std::size_t>(i)]);
-  return nodes;
 }
 
 void add(const SectionEdge& edge, const Eigen::Vector3d& shares, const Eigen::Vector2d& direction, Eigen::Ref<Eigen::VectorXd> load) {
@@ -54,7 +41,7 @@ Eigen::VectorXd line_load(const SectionMesh& mesh, const SectionTooth& tooth, co
   std::vector<std::pair<SectionEdge, Eigen::Matrix<double, 3, 2>>> loaded;
   Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
   for (const SectionEdge& edge : tooth.flank) {
-    const Edge nodes = nodes_of(mesh, edge);
+    const EdgeNodes nodes = edge_nodes(mesh, edge);
     if ((nodes.colwise() - at.position).colwise().norm().minCoeff() > half_width + (nodes.col(2) - nodes.col(0)).norm()) continue;
     Eigen::Matrix<double, 3, 2> sums = Eigen::Matrix<double, 3, 2>::Zero();
     integrate_edge(40, [&](const EdgeShape& shape, double share) {
@@ -84,7 +71,7 @@ Eigen::VectorXd deflection(const SectionMesh& mesh, const SectionTooth& tooth, c
   Eigen::VectorXd functional = Eigen::VectorXd::Zero(mesh.nodes.size());
   const double radius = at.position.norm();
   for (const SectionEdge& edge : tooth.flank) {  // tip to root
-    const Edge nodes = nodes_of(mesh, edge);
+    const EdgeNodes nodes = edge_nodes(mesh, edge);
     if (!(nodes.col(0).norm() >= radius && nodes.col(2).norm() <= radius)) continue;
     const auto above = [&](double x) { return (nodes * EdgeShape(x).values).norm() - radius; };
     const double x = bracketed_root(above, -1.0, above(-1), 1.0, above(1), 1e-12).x;
@@ -103,7 +90,7 @@ class FaceFunctional {
       : mesh_(mesh), depth_(at.centre_depth), direction_(-at.normal) {
     const Eigen::Vector2d source = at.position - (1 - source_height) * depth_ * at.normal, across(at.normal.y(), -at.normal.x());
     for (const SectionEdge& edge : tooth.centre_line) {
-      const Edge nodes = nodes_of(mesh, edge);
+      const EdgeNodes nodes = edge_nodes(mesh, edge);
       const double size = (nodes.col(2) - nodes.col(0)).norm(), distance = (nodes.colwise() - source).colwise().norm().minCoeff();
       integrate_edge(std::clamp(static_cast<int>(std::ceil(3 * size / distance)), 1, 8), [&](const EdgeShape& shape, double weight) {
         const Eigen::Vector2d d = nodes * shape.values - source, along = nodes * shape.derivatives;

@@ -24,13 +24,6 @@ double RingDivision::angle(int index) const {
   return angles[static_cast<std::size_t>(index - turns * n)] + turns * 2 * units::pi;
 }
 
-bool RingDivision::has_corner(double angle) const {
-  for (std::size_t i = 0; i < angles.size(); i += 2) {
-    if (same_angle(angles[i], angle)) return true;
-  }
-  return false;
-}
-
 JoinedRing join_neighbours(const RingDivision& outer, double longest, const std::vector<double>& kept) {
   const int n = outer.elements(), half = n / 2;
   int start = 0;  // the corner nearest to angle 0

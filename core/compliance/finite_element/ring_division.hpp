@@ -13,7 +13,6 @@ struct RingDivision {
   int elements() const { return static_cast<int>(angles.size()) / 2; }
   /// Angle at any index, also beyond the ends of the list, with the turns in between [rad].
   double angle(int index) const;
-  bool has_corner(double angle) const;
 };
 
 /// A ring with fewer elements, and where the one outside it has two for one.

@@ -7,10 +7,10 @@
 #include <optional>
 #include <utility>
 
+#include "core/compliance/finite_element/quadratic_edge.hpp"
+
 namespace flankwright {
 namespace {
-
-constexpr double gauss2 = 0.577350269189625765;  // abscissa of the two-point rule
 
 /// Stress along a section's fillet, as FilletStress takes it: at two points of every edge, with cubic splines between them.
 class SectionFillet {
@@ -19,8 +19,8 @@ class SectionFillet {
     double begin = 0;
     std::vector<double> arcs;
     for (const SectionEdge& edge : section.loaded_tooth().fillet) {
-      for (const double x : {-gauss2, gauss2}) arcs.push_back(begin + arc(edge, x));
-      begin += arc(edge, 1);
+      for (const double x : gauss2_abscissae) arcs.push_back(begin + arc_length(nodes(edge), x));
+      begin += arc_length(nodes(edge), 1);
     }
     length_ = begin;
     arcs_.emplace(std::move(arcs));
@@ -34,8 +34,8 @@ class SectionFillet {
     Eigen::RowVectorXd stress = Eigen::RowVectorXd::Zero(displacements.cols());
     Eigen::Index point = 0;
     for (const SectionEdge& edge : section_.loaded_tooth().fillet) {
-      for (const double x : {-gauss2, gauss2}) {
-        const Eigen::Vector3d slopes = slopes_at(x);
+      for (const double x : gauss2_abscissae) {
+        const Eigen::Vector3d slopes = EdgeShape(x).derivatives;
         const Eigen::Vector2d tangent = nodes(edge) * slopes;
         for (int i = 0; i < 3; ++i) {
           const Eigen::Vector2d share = weights[point] * slopes[i] / tangent.squaredNorm() * tangent;
@@ -52,10 +52,11 @@ class SectionFillet {
     const auto& edges = section_.loaded_tooth().fillet;
     double begin = 0;
     for (const SectionEdge& edge : edges) {
-      const double size = arc(edge, 1);
+      const double size = arc_length(nodes(edge), 1);
       if (along <= begin + size || &edge == &edges.back()) {
         const double x = std::min(1.0, 2 * (along - begin) / size - 1);  // elements are all but evenly long in x
-        return {nodes(edge) * Eigen::Vector3d(x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2), (nodes(edge) * slopes_at(x)).normalized()};
+        const EdgeShape shape(x);
+        return {nodes(edge) * shape.values, (nodes(edge) * shape.derivatives).normalized()};
       }
       begin += size;
     }
@@ -64,19 +65,7 @@ class SectionFillet {
   }
 
  private:
-  static Eigen::Vector3d slopes_at(double x) { return {x - 0.5, -2 * x, x + 0.5}; }
-  Eigen::Matrix<double, 2, 3> nodes(const SectionEdge& edge) const {
-    Eigen::Matrix<double, 2, 3> nodes;
-    for (int i = 0; i < 3; ++i) nodes.col(i) = section_.mesh.nodes.col(edge[static_cast<std::size_t>(i)]);
-    return nodes;
-  }
-  /// From the edge's start.
-  double arc(const SectionEdge& edge, double to) const {
-    const double half = (to + 1) / 2;
-    double sum = 0;
-    for (int i = 0; i < 3; ++i) sum += gauss3_weights[i] * half * (nodes(edge) * slopes_at(-1 + half * (1 + gauss3_abscissae[i]))).norm();
-    return sum;
-  }
+  EdgeNodes nodes(const SectionEdge& edge) const { return edge_nodes(section_.mesh, edge); }
 
   const LoadedSection& section_;
   double length_{0};

@@ -86,12 +86,7 @@ NodeGraph node_graph(const SolidMesh& mesh, const std::vector<int>& ties) {
 }
 
 void check(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports) {
-  if (!(material.youngs_modulus > 0)) {
-    throw InvalidInput("material.youngs_modulus", std::to_string(material.youngs_modulus), "more than 0 MPa");
-  }
-  if (!(material.poissons_ratio >= 0 && material.poissons_ratio < 0.5)) {
-    throw InvalidInput("material.poissons_ratio", std::to_string(material.poissons_ratio), "0 <= nu < 0.5");
-  }
+  check_elastic(material);
   const auto n = static_cast<int>(mesh.nodes.cols());
   std::vector<char> used(static_cast<std::size_t>(n), 0);
   for (Eigen::Index e = 0; e < mesh.bricks.cols(); ++e) {

@@ -61,7 +61,6 @@ SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
 std::size_t SparseCholesky::factor_entries() const { return factor_->l ? factor_->l->xsize : 0; }
 std::size_t SparseCholesky::peak_bytes() const { return factor_->common.memory_usage; }
-double SparseCholesky::flops() const { return factor_->common.fl; }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_sides) const {
   assert(status_ == FactorStatus::Factorised);

@@ -36,7 +36,6 @@ class SparseCholesky {
   FactorStatus status() const { return status_; }
   std::size_t factor_entries() const;  ///< stored entries of L, with the zeros of its dense blocks
   std::size_t peak_bytes() const;      ///< largest memory that CHOLMOD held
-  double flops() const;                ///< of the factorisation
 
   /// A^-1 B, n x k. Needs status() Factorised.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_sides) const;

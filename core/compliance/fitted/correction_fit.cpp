@@ -1,7 +1,6 @@
 #include "core/compliance/fitted/correction_fit.hpp"
 
 #include "core/compliance/tooth/station_grid.hpp"
-#include "core/compliance/tooth/flank_stations.hpp"
 
 namespace flankwright {
 
@@ -26,17 +25,6 @@ GearToMesh standard_gear(const GearProportions& gear_proportions, const Referenc
   gear.pressure_angle = profile.pressure_angle;
   gear.helix_angle = gear_proportions.helix_angle;
   return gear;
-}
-
-InfluenceSample element_sample(const GearProportions& gear, const GearMeshOptions& mesh, const std::vector<FlankStation>& stations,
-                               const ReferenceProfile& profile) {
-  const InfluenceModel model(standard_gear(gear, profile), {1.0, 0.3}, mesh);
-  const ToothForm& form = model.mesh().form;
-  std::vector<FlankPoint> points;
-  for (const FlankStation& station : stations) {
-    points.push_back({station.tooth, flank_radius(form, station.u), station.zeta - gear.relative_face / 2});
-  }
-  return {gear, stations, model.influence(points).compliance};
 }
 
 std::vector<FlankStation> places_on(const std::vector<double>& us, const std::vector<double>& zetas) {

@@ -20,10 +20,6 @@ GearMeshOptions coarse_mesh();
 /// The gear that a library's entry is made from: m_n = 1, the body of GearBody's defaults.
 GearToMesh standard_gear(const GearProportions& gear, const ReferenceProfile& profile = {});
 
-/// Influence values between stations of one tooth by the mesh given, E = 1, nu = 0.3.
-InfluenceSample element_sample(const GearProportions& gear, const GearMeshOptions& mesh, const std::vector<FlankStation>& stations,
-                               const ReferenceProfile& profile = {});
-
 /// A tensor grid of stations on a tooth.
 std::vector<FlankStation> places_on(const std::vector<double>& us, const std::vector<double>& zetas);
 

@@ -62,20 +62,6 @@ Eigen::MatrixXd FittedCompliance::evaluate(std::span<const FlankStation> points)
   return sum.tooth_matrix() + sum.body_matrix();
 }
 
-Eigen::MatrixXd FittedCompliance::tooth_part(std::span<const FlankStation> points) const {
-  require_known(points);
-  KernelSum sum(form_, gear_, points);
-  sum.set_coefficients(coefficients_);
-  return sum.tooth_matrix();
-}
-
-Eigen::MatrixXd FittedCompliance::body_part(std::span<const FlankStation> points) const {
-  require_known(points);
-  KernelSum sum(form_, gear_, points);
-  sum.set_coefficients(coefficients_);
-  return sum.body_matrix();
-}
-
 bool FittedCompliance::covers(std::span<const FlankStation> points) const {
   if (points.empty()) return true;
   const FitRange& range = record_.range;

@@ -48,10 +48,6 @@ class FittedCompliance final : public FlankCompliance {
   /// E m_n K [-], n x n. @throws InvalidInput for |u| > 1.05, zeta outside 0 .. B, or points more teeth apart than
   /// range().teeth_apart
   Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
-  /// The teeth's share of evaluate(), and the gear body's; each positive semi-definite.
-  Eigen::MatrixXd tooth_part(std::span<const FlankStation> points) const;
-  Eigen::MatrixXd body_part(std::span<const FlankStation> points) const;
-
   /// Whether the points lie within the range of the influence values fitted.
   bool covers(std::span<const FlankStation> points) const;
 
@@ -60,10 +56,8 @@ class FittedCompliance final : public FlankCompliance {
   const std::vector<double>& coefficients() const { return coefficients_; }
   const FitRecord& record() const { return record_; }
 
-  /// Everything, form included, as names and numbers; from_table() gives back an equal object.
+  /// Everything, form included, as names and numbers.
   FitTable to_table() const;
-  /// @throws InvalidInput naming the entry that is missing, unknown, double or out of range
-  static FittedCompliance from_table(const FitTable& table);
 
   bool operator==(const FittedCompliance& other) const;
 

@@ -73,8 +73,7 @@ double ThinSlice::Table::operator()(double radius) const {
 ThinSlice::ThinSlice(const GearPair& pair, const Material& pinion, const Material& wheel)
     : pinion_(tooth_form(pair, Member::Pinion), pinion), wheel_(tooth_form(pair, Member::Wheel), wheel), iso_(iso_stiffness(pair, pinion, wheel)) {
   const bool pitch_point_active = pair.pitch_point >= pair.path_start && pair.pitch_point <= pair.path_end;
-  calibration_roll_length_ = pitch_point_active ? pair.pitch_point : 0.5 * (pair.path_start + pair.path_end);
-  const double rho_1 = calibration_roll_length_;
+  const double rho_1 = pitch_point_active ? pair.pitch_point : 0.5 * (pair.path_start + pair.path_end);
   const double rho_2 = pair.path_length - rho_1;
 
   const double iso_compliance = units::um / iso_.normal_section;

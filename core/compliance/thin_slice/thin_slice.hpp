@@ -50,7 +50,6 @@ class ThinSlice {
   double calibration() const { return calibration_; }  ///< kappa [-]
   ThinSliceStatus status() const { return status_; }
   const IsoStiffness& iso() const { return iso_; }
-  double calibration_roll_length() const { return calibration_roll_length_; }  ///< rho_1 where kappa was set [mm]
 
  private:
   static constexpr std::size_t kNodes = 65;  ///< of the table, for the interpolation error of the class comment
@@ -66,7 +65,6 @@ class ThinSlice {
   Table pinion_, wheel_;
   IsoStiffness iso_;
   double calibration_{1};
-  double calibration_roll_length_{not_given};
   ThinSliceStatus status_{ThinSliceStatus::Calibrated};
 };
 

@@ -279,6 +279,14 @@ Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& p
   return highest;
 }
 
+void CycleSummary::include(const LoadedPosition& position) {
+  peak_line_load = std::max(peak_line_load, position.peak_load.maxCoeff());
+  peak_contact_stress = std::max(peak_contact_stress, position.contact_stress.maxCoeff());
+  if (position.edge_stress.size() > 0) edge_stress = std::fmax(edge_stress, position.edge_stress.maxCoeff());
+  tip_edge_share = std::fmax(tip_edge_share, position.tip_edge_share);
+  worst_kkt_residual = std::max(worst_kkt_residual, position.load.kkt_residual);
+}
+
 CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
   CycleSummary summary;
   if (!cycle.usable() || cycle.positions.empty()) return summary;
@@ -290,11 +298,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
   double mean_approach = 0.0;
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const LoadedPosition& position = cycle.positions[i];
-    summary.peak_line_load = std::max(summary.peak_line_load, position.peak_load.maxCoeff());
-    summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
-    if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
-    summary.tip_edge_share = std::fmax(summary.tip_edge_share, position.tip_edge_share);
-    summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
+    summary.include(position);
     summary.worst_condition = std::fmax(summary.worst_condition, position.load.condition);
     raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
     raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));

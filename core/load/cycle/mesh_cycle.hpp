@@ -84,6 +84,9 @@ struct CycleSummary {
   double worst_condition{not_given};                     ///< largest LoadDistribution::condition [-]
   RootStressPeak pinion_root_stress, wheel_root_stress;  ///< over the positions; NaN where the model has none
   double peak_root_stress{not_given};                    ///< the larger of both [MPa]
+
+  /// Raises what is a peak over positions, root stress aside, to that of one more.
+  void include(const LoadedPosition& position);
 };
 CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle);
 

@@ -392,8 +392,6 @@ class ModificationReading {
 
 }  // namespace
 
-bool is_modification(std::string_view type) { return std::ranges::find(modification_types, type) != modification_types.end(); }
-
 ImportedModification read_modification(Reading& reading, const GearParts& parts, const GearPair& pair, Member member, SlopeEnd slope_end) {
   return ModificationReading(reading, parts, pair, member, slope_end).read();
 }

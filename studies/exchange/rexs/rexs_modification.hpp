@@ -8,9 +8,6 @@
 
 namespace flankwright::studies::rexs {
 
-/// Types of the components that say how a flank is modified.
-bool is_modification(std::string_view type);
-
 /// End of the face at which a positive helix_slope removes material. The format does not say; programs differ.
 enum class SlopeEnd { NonDatumFace, DatumFace };
 

@@ -5,7 +5,7 @@
 
 namespace flankwright::studies {
 
-/// CSV tables of fits: fit_pinion.csv and fit_wheel.csv, all that FittedCompliance::from_table() needs, a name and a
+/// CSV tables of fits: fit_pinion.csv and fit_wheel.csv, all that defines a fit, a name and a
 /// number a line; fit_residuals.csv and deflection_curves.csv of both gears.
 std::vector<NamedText> fit_tables(const std::vector<GearFit>& fits);
 

@@ -95,18 +95,18 @@ void check_optimise(StudyReading& reading) {
   const Match* variables = reading.find("optimise.variables");
   const bool has_entry = variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
   if (!has_entry) reading.refuse_key("optimise.variables", "task \"optimise\" needs at least one variable");
-  if (!study.optimise.constraints.empty() && !accepts_constraints(study.optimise.solver)) {
+  if (!study.optimise.constraints.empty() && !accepts_constraints(study.optimise.solver.name)) {
     reading.refuse_key("optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
   }
   if (study.fidelity.compliance == ComplianceModel::Rigid) {
     reading.refuse_key("fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
-  const bool smooth = uses_gradients(study.optimise.solver) && accepts_constraints(study.optimise.solver);  // the epigraph is
+  const bool smooth = uses_gradients(study.optimise.solver.name) && accepts_constraints(study.optimise.solver.name);  // the epigraph is
   if (!study.optimise.pareto_objectives.empty() && !smooth) {
     reading.refuse_key("optimise.solver",
                        "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
   }
-  if (study.optimise.later_objectives.size() > 0 && !accepts_constraints(study.optimise.solver)) {
+  if (study.optimise.later_objectives.size() > 0 && !accepts_constraints(study.optimise.solver.name)) {
     reading.refuse_key("optimise.solver",
                        "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
   }

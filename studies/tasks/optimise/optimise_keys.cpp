@@ -29,10 +29,10 @@ std::vector<SchemaKey> optimise_keys() {
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.over.level = v.number; }},
       {.path = "optimise.solver", .kind = Word, .words = solver_names(), .fallback = "\"nlopt:slsqp\"",
        .meaning = "the optimiser",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.solver = v.text; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.solver.name = v.text; }},
       {.path = "optimise.finisher", .kind = Word, .words = finisher_names(), .fallback = "\"nlopt:slsqp\"",
        .meaning = "what goes on from the best design where a solver with gradients and constraints stalls on a kink; none: the search ends there",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.finisher = v.text; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.solver.finisher = v.text; }},
       {.path = "optimise.variables", .kind = Variables, .fallback = "(none)",
        .meaning = "\"pinion.modification.lead_crowning\" = [0, 40]: what may change, in the unit of its key; { range = [0, 40], step = 1 }: and is ground in such steps"},
       {.path = "optimise.step", .kind = NumberOrNone, .quantity = Quantity::Deviation, .range = above_zero(100.0), .fallback = "\"none\"",
@@ -56,15 +56,15 @@ std::vector<SchemaKey> optimise_keys() {
       {.path = "optimise.max_evaluations", .kind = Integer, .range = {.low = 1, .high = 10'000'000}, .fallback = "2000",
        .meaning = "then an orderly stop with the best so far",
        .store = [](StudyBuilder& d, Member, const Value& v) {
-         d.study.optimise.max_evaluations = static_cast<int>(v.integer);
+         d.study.optimise.solver.max_evaluations = static_cast<int>(v.integer);
        }},
       {.path = "optimise.max_seconds", .quantity = Quantity::Time, .range = above_zero(1e8), .fallback = "(no limit)",
        .meaning = "then an orderly stop with the best so far",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.max_seconds = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.solver.max_seconds = v.number; }},
       {.path = "optimise.seed", .kind = Integer, .range = {.low = 0, .high = 2147483647}, .fallback = "1",
        .meaning = "of the stochastic solvers and of the starts",
        .store = [](StudyBuilder& d, Member, const Value& v) {
-         d.study.optimise.seed = static_cast<unsigned long>(v.integer);
+         d.study.optimise.solver.seed = static_cast<unsigned long>(v.integer);
        }},
   };
 }

@@ -28,12 +28,7 @@ class OptimiseRun {
     const Study& study = results_.study;
     run_.set_phases();
     results_.design_task = design_task();
-    SolverOptions options;
-    options.name = study.optimise.solver;
-    options.finisher = study.optimise.finisher;
-    options.max_evaluations = study.optimise.max_evaluations;
-    options.max_seconds = study.optimise.max_seconds;
-    options.seed = study.optimise.seed;
+    SolverOptions options = study.optimise.solver;
     const std::string unit = study.optimise.objective.size() == 1 ? study.optimise.objective.front().unit() : "";
     options.progress = [&](int analyses, double best) { run_.report("optimising", analyses, 0, fmt::format("best so far {:.5g} {}", best, unit)); };
     DesignProblem problem(*results_.design_task);

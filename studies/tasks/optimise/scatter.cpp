@@ -46,7 +46,7 @@ class ScatterRun {
     report("searching over " + std::to_string(asked_.draws) + " draws");
     result.draws = draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_);
     const DesignTask over = over_draws(task_, result.draws, asked_.statistic);
-    result.design = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, options());
+    result.design = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.optimise.solver);
     predict(result);
     result.without_value = statistic_over(over, found.after.analysis.modification, over.combined_objective());
     try_afresh(found, result);
@@ -55,16 +55,6 @@ class ScatterRun {
   }
 
  private:
-  SolverOptions options() const {
-    SolverOptions options;
-    options.name = study_.optimise.solver;
-    options.finisher = study_.optimise.finisher;
-    options.max_evaluations = study_.optimise.max_evaluations;
-    options.max_seconds = study_.optimise.max_seconds;
-    options.seed = study_.optimise.seed;
-    return options;
-  }
-
   void report(const std::string& label) const {
     if (progress_) progress_(label, 0, 1, "");
   }
@@ -104,7 +94,7 @@ class ScatterRun {
       report("searching the right design of class " + std::to_string(tolerance_class));
       const auto tolerances = with_class(study_.optimise.assessment.tolerances, task_.pair, tolerance_class);
       const DesignTask over = over_draws(task_, draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_), asked_.statistic);
-      ClassDesign priced{.tolerance_class = tolerance_class, .design = search_over_draws(over, start, options())};
+      ClassDesign priced{.tolerance_class = tolerance_class, .design = search_over_draws(over, start, study_.optimise.solver)};
       const DesignProblem problem(over);
       priced.without_scatter = problem.objective(problem.analyse_design(found.after.analysis.modification));
       const DesignAnalysis analysis = problem.analyse_design(priced.design.modification);

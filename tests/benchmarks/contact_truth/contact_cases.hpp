@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -16,13 +17,7 @@ namespace flankwright::contact_truth {
 
 /// Haddad's rack and pinion, m_n = 10 mm.
 inline PairData pair_data(double helix_angle_deg, double face_width, int wheel_teeth = 54) {
-  PairData data;
-  data.normal_module = 10;
-  data.helix_angle = helix_angle_deg * units::deg;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = wheel_teeth;
-  data.pinion.face_width = data.wheel.face_width = face_width;
-  return data;
+  return pair_cases::pair_data(18, wheel_teeth, helix_angle_deg, 10, face_width);
 }
 
 /// A position of such a pair; the bores leave 2.5 and 3.75 modules below the roots (of large
@@ -45,11 +40,7 @@ inline ContactTask contact_task(const PairData& data, double phase, double appro
 /// @param rounding  of both gears' tips [m_n]
 /// @param outside   how far the pair is before A, or beyond E [base pitches]; < 0 inside
 inline ContactTask edge_task(double rounding, Member edge, double outside, double approach_um) {
-  PairData data;
-  data.normal_module = 2;
-  data.pinion.teeth = 27;
-  data.wheel.teeth = 43;
-  data.pinion.face_width = data.wheel.face_width = 1;
+  PairData data = pair_cases::pair_data(27, 43, 0, 2, 1);
   data.pinion.tip_rounding = data.wheel.tip_rounding = rounding * data.normal_module;
   const PathOfContact path(make_gear_pair(data));
   ContactTask task = contact_task(data, edge == Member::Wheel ? path.before - outside : path.path_end() + outside, approach_um);

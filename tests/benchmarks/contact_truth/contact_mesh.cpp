@@ -4,13 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 
-#include "core/compliance/thin_slice/thin_slice.hpp"
-#include "core/contact/path/contact_points.hpp"
 #include "tests/benchmarks/contact_truth/mesh_layers.hpp"
-#include "tests/benchmarks/contact_truth/root_curve.hpp"
-#include "tests/benchmarks/contact_truth/rounded_tip.hpp"
+#include "tests/benchmarks/contact_truth/tooth_surface.hpp"
 
 namespace flankwright::contact_truth {
 namespace {
@@ -23,18 +19,12 @@ class Section {
   Section(const ContactGear& gear, const ContactMeshOptions& options)
       : gear_(gear),
         options_(options),
-        form_(tooth_form(*gear.pair, gear.member)),
+        surface_(gear, options),
+        form_(surface_.form()),
         pitch_(2 * pi / (*gear.pair)[gear.member].data.teeth),
         rim_(std::max(form_.root_radius() - 1.1 * gear.pair->data.normal_module, 0.5 * (form_.root_radius() + inside_teeth(gear, form_)))),
-        path_(*gear.pair),
-        root_(form_, pitch_ / 2),
-        rounding_((*gear.pair)[gear.member].data.tip_rounding) {
-    if (rounding_ > 0) tip_.emplace((*gear.pair)[gear.member], gear.flank->helix_rate);
-    // Teeth counter-clockwise: pair k is tooth k of the pinion and -k of the wheel.
-    loaded_first_ = pinion() ? gear.first : -gear.last;
-    loaded_last_ = pinion() ? gear.last : -gear.first;
-    first_ = loaded_first_ - options.form_teeth;
-    last_ = loaded_last_ + options.form_teeth;
+        first_(surface_.first_loaded() - options.form_teeth),
+        last_(surface_.last_loaded() + options.form_teeth) {
     divide_body();
     build();
   }
@@ -53,7 +43,7 @@ class Section {
 
   Eigen::Vector2d position(std::size_t node, double z) const {
     const Polar p = polar(places_[node], z);
-    const double angle = p.angle + turn() + gear_.flank->helix_rate * z;
+    const double angle = p.angle + surface_.turn() + gear_.flank->helix_rate * z;
     return {p.radius * std::cos(angle), p.radius * std::sin(angle)};
   }
 
@@ -66,8 +56,6 @@ class Section {
     auto operator<=>(const Place&) const = default;
   };
 
-  bool pinion() const { return gear_.member == Member::Pinion; }
-  bool loaded(int tooth) const { return tooth >= loaded_first_ && tooth <= loaded_last_; }
   int rings() const { return static_cast<int>(ring_ends_.size()) - 1; }
 
   static double inside_teeth(const ContactGear& gear, const ToothForm& form) {
@@ -90,103 +78,19 @@ class Section {
     web_end_ = rings();
     even(gear_.bore_radius, options_.body_rings);
   }
-  int pair_of(int tooth) const { return pinion() ? tooth : -tooth; }
-  int flank_elements(int tooth) const { return loaded(tooth) ? options_.flank : options_.far_flank; }
-  int fillet_elements(int tooth) const { return loaded(tooth) || options_.far_fillet == 0 ? options_.fillet : options_.far_fillet; }
-  int steps(int tooth) const { return flank_elements(tooth) + fillet_elements(tooth); }
   /// Where the inner line turns from the centre line to the rim.
-  int corner(int tooth) const { return steps(tooth) - std::max(1, fillet_elements(tooth) / 2); }
-  double turn() const {
-    const double phi1 = path_.pinion_angle_at(gear_.line_phase, *gear_.pair);
-    const double rotation = pinion() ? phi1 : -phi1 / gear_.pair->gear_ratio();
-    return rotation - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
-  }
-
-  /// A loaded tooth with a rounding ends in a cap of its own, between its loaded side, its other flank and the tip land.
-  bool capped(int tooth) const { return loaded(tooth) && tip_.has_value(); }
-  /// Where the centre line, and the unloaded flank, of a tooth begin.
-  double top(int tooth) const {
-    return capped(tooth) ? form_.tip_radius() - cap_height * form_.tip_radius() * form_.tip_half_angle() : form_.tip_radius();
-  }
-
-  double involute_arc(double rho) const { return rho * rho / (2 * form_.base_radius()); }
-
-  /// Where contact is expected on a loaded flank, by arc length, and how fine elements are there [mm].
-  struct Finest {
-    double at, size;
-  };
-  Finest finest(int tooth, double z) const {
-    const Gear& g = (*gear_.pair)[gear_.member];
-    const double pinion_roll = path_.roll_at(path_.phase_at(gear_.line_phase + pair_of(tooth), z));
-    const double roll = std::max(0.0, pinion() ? pinion_roll : gear_.pair->path_length - pinion_roll);
-    const auto contact = contact_point(*gear_.pair, path_, gear_.line_phase, pair_of(tooth), z, true);
-    if (options_.edge_finest == 0 || !contact || contact->tip_edge.radius == 0 || contact->tip_edge.distance > options_.edge_reach) {
-      return {involute_arc(roll), options_.finest};
-    }
-    if (contact->tip_edge.gear == gear_.member) return {involute_arc(tip_->flank_end()), options_.edge_finest};
-    return {involute_arc(g.roll_length_at(pinion() ? contact->pinion_radius : contact->wheel_radius)), options_.edge_finest};
-  }
-
-  /// The surface's length from the involute's start on the base circle to half step i of the flank, rho^2 / (2 r_b) on the involute; a rounding counts
-  /// its radius times the angle of its normal [mm].
-  double arc(int tooth, int side, int i, double z) const {
-    if (i % 2 != 0) return (arc(tooth, side, i - 1, z) + arc(tooth, side, i + 1, z)) / 2;
-    const Gear& g = (*gear_.pair)[gear_.member];
-    double tip = involute_arc(g.roll_length_at(side < 0 ? top(tooth) : form_.tip_radius()));
-    const double start = involute_arc(g.roll_length_at(form_.form_radius()));
-    const double t = i / (2.0 * flank_elements(tooth));
-    if (side < 0 || !loaded(tooth)) return tip + t * (start - tip);
-    if (tip_) {
-      tip = involute_arc(tip_->flank_end()) + rounding_ * tip_->angle() + land_share * form_.tip_radius() * form_.tip_half_angle();
-      const auto steps_above = [&](double at_z) {
-        const auto [at, size] = finest(tooth, at_z);
-        const double a = std::asinh((tip - at) / size), b = std::asinh((at - start) / size);
-        return std::clamp(static_cast<int>(std::lround(a / (a + b) * options_.flank)), 2, options_.flank - 2);
-      };
-      const auto [at, size] = finest(tooth, z);
-      const int above = steps_above(0), below = options_.flank - above, step = i / 2 - above;
-      const double end = step < 0 ? tip - at : at - start;
-      return at - size * std::sinh(std::asinh(end / size) * step / (step < 0 ? above : below));
-    }
-    const double contact = std::clamp(finest(tooth, z).at, start, tip), delta = options_.finest;
-    const double above = std::asinh((tip - contact) / delta), below = std::asinh((contact - start) / delta);
-    return contact + delta * std::sinh(above - t * (above + below));
-  }
-
-  /// The surface, angles from the centre line.
-  Polar profile(int tooth, int side, int i, double z) const {
-    const int end = 2 * flank_elements(tooth);
-    if (i > end) return root_.at((i - end) / (2.0 * fillet_elements(tooth)));
-    const double s = arc(tooth, side, i, z);
-    if (side > 0 && capped(tooth) && s > involute_arc(tip_->flank_end())) return beyond_flank(s - involute_arc(tip_->flank_end()));
-    const double rho = std::sqrt(2 * form_.base_radius() * s), radius = std::hypot(rho, form_.base_radius());
-    if (side < 0 || !loaded(tooth)) return {radius, form_.half_angle(std::clamp(radius, form_.form_radius(), form_.tip_radius()))};
-    const auto p = flank_point(*gear_.flank, rho, z, pair_of(tooth), 0.0);
-    const double centre = gear_.flank->helix_rate * z - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
-    return {std::hypot(p.x, p.y), std::remainder(std::atan2(p.y, p.x) - centre, 2 * pi)};
-  }
-
-  /// On the rounding or the tip land, at a length from the end of the flank.
-  Polar beyond_flank(double length) const {
-    const double end = form_.half_angle(std::hypot(form_.base_radius(), tip_->flank_end()));
-    const double on_land = length - rounding_ * tip_->angle();
-    const auto [radius, angle] = tip_->at(std::max(0.0, tip_->angle() - length / rounding_));
-    return {radius, end + angle - std::max(0.0, on_land) / form_.tip_radius()};
-  }
-
-  static constexpr double cap_height = 0.6;  ///< of half the tip's thickness
-  static constexpr double land_share = 0.2;  ///< part of half the tip land that belongs to the loaded side's grid
+  int corner(int tooth) const { return surface_.steps(tooth) - std::max(1, surface_.fillet_elements(tooth) / 2); }
 
   /// Where the start of the fillet is joined to the centre line: share of the height from the rim to there.
   static constexpr double below_flank = 0.6;
 
   /// The tooth's centre line, then the rim's circle; the same for both sides of a tooth.
   Polar inner(int tooth, int i) const {
-    const int flank = 2 * flank_elements(tooth), turn = 2 * corner(tooth), last = 2 * steps(tooth);
+    const int flank = 2 * surface_.flank_elements(tooth), turn = 2 * corner(tooth), last = 2 * surface_.steps(tooth);
     if (i > turn) return {rim_, pitch_ / 2 * (i - turn) / (last - turn)};
     const double foot = rim_ + below_flank * (form_.form_radius() - rim_);
     if (i > flank) return {foot + (rim_ - foot) * (i - flank) / (turn - flank), 0};
-    return {top(tooth) + (foot - top(tooth)) * i / flank, 0};
+    return {surface_.top(tooth) + (foot - surface_.top(tooth)) * i / flank, 0};
   }
 
   /// Share of the way from the inside to the surface at half level j where elements shrink by a ratio q towards it.
@@ -198,14 +102,14 @@ class Section {
   /// The same on a tooth: fine below the loaded flank, as in the gap's middle elsewhere.
   double level(int tooth, int side, int i, int j) const {
     const double gap = graded(options_.gap_depth, j);
-    if (side < 0 || !loaded(tooth)) return gap;
+    if (side < 0 || !surface_.loaded(tooth)) return gap;
     const double fine = graded(options_.into_depth, j);
-    const int end = 2 * flank_elements(tooth);
-    return i <= end ? fine : fine + (gap - fine) * (i - end) / (2.0 * fillet_elements(tooth));
+    const int end = 2 * surface_.flank_elements(tooth);
+    return i <= end ? fine : fine + (gap - fine) * (i - end) / (2.0 * surface_.fillet_elements(tooth));
   }
 
   Polar tooth_polar(int tooth, int side, int i, int j, double z) const {
-    const Polar at = blend(inner(tooth, i), profile(tooth, side, i, z), level(tooth, side, i, j));
+    const Polar at = blend(inner(tooth, i), surface_.profile(tooth, side, i, z), level(tooth, side, i, j));
     return {at.radius, tooth * pitch_ + side * at.angle};
   }
 
@@ -213,15 +117,15 @@ class Section {
   Polar cap(int tooth, int i, int j, double z) const {
     const double u = level(tooth, 1, 0, i), v = level(tooth, -1, 0, j), middle = tooth * pitch_;
     const auto at = [](const Polar& p) { return Eigen::Vector2d(p.radius * std::cos(p.angle), p.radius * std::sin(p.angle)); };
-    const Polar land = profile(tooth, 1, 0, z);
+    const Polar land = surface_.profile(tooth, 1, 0, z);
     const double tip = form_.tip_radius(), tip_angle = form_.tip_half_angle();
     const auto on_land = [&](double t) { return at({tip, middle + land.angle + t * (-tip_angle - land.angle)}); };
     const auto on_flank = [&](double t) {
-      const double radius = top(tooth) + t * (tip - top(tooth));
+      const double radius = surface_.top(tooth) + t * (tip - surface_.top(tooth));
       return at({radius, middle - form_.half_angle(radius)});
     };
     const Eigen::Vector2d first = at(tooth_polar(tooth, 1, 0, i, z)), other = at(tooth_polar(tooth, -1, 0, j, z));
-    const Eigen::Vector2d centre = at({top(tooth), middle}), corner = at({tip, middle - tip_angle});
+    const Eigen::Vector2d centre = at({surface_.top(tooth), middle}), corner = at({tip, middle - tip_angle});
     const Eigen::Vector2d p = (1 - v) * first + v * on_flank(u) + (1 - u) * other + u * on_land(v) -
                               ((1 - u) * (1 - v) * centre + u * (1 - v) * on_land(0) + (1 - u) * v * on_flank(0) + u * v * corner);
     return {p.norm(), std::atan2(p.y(), p.x())};
@@ -263,7 +167,7 @@ class Section {
   int node(Place p) {
     if (p.kind == Cap && p.j == 0) p = {Tooth, p.tooth, 1, 0, p.i};
     if (p.kind == Cap && p.i == 0) p = {Tooth, p.tooth, -1, 0, p.j};
-    if (p.kind == Tooth && p.i == 2 * steps(p.tooth))
+    if (p.kind == Tooth && p.i == 2 * surface_.steps(p.tooth))
       p = {Gap, p.side > 0 ? p.tooth : p.tooth - 1, 0, 0, p.j};
     else if (p.kind == Tooth && p.j == 0 && p.i <= 2 * corner(p.tooth))
       p = {Centre, p.tooth, 0, p.i, 0};
@@ -288,9 +192,9 @@ class Section {
         const int face = !surface ? 0 : flipped ? 4 : 5;
         const double half = (*gear_.pair)[gear_.member].data.face_width / 2;
         if (flipped)
-          quads_.push_back({{n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4]}, pair_of(tooth), face, half, 0, is_below_root(n), fillet});
+          quads_.push_back({{n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4]}, surface_.pair_of(tooth), face, half, 0, is_below_root(n), fillet});
         else
-          quads_.push_back({n, pair_of(tooth), face, half, 0, is_below_root(n), fillet});
+          quads_.push_back({n, surface_.pair_of(tooth), face, half, 0, is_below_root(n), fillet});
       }
     }
   }
@@ -304,13 +208,13 @@ class Section {
   void build() {
     for (int m = first_; m <= last_; ++m) {
       for (const int side : {-1, 1}) {
-        grid(steps(m), options_.across, side > 0, m, side > 0 && loaded(m) ? flank_elements(m) : 0, [&](int i, int j) {
+        grid(surface_.steps(m), options_.across, side > 0, m, side > 0 && surface_.loaded(m) ? surface_.flank_elements(m) : 0, [&](int i, int j) {
           return node({Tooth, m, side, i, j});
         });
       }
-      if (capped(m)) grid(options_.across, options_.across, true, m, 0, [&](int i, int j) { return node({Cap, m, 0, i, j}); });
-      for (int i = 2 * steps(m); i > 2 * corner(m); --i) around_.push_back(node({Tooth, m, -1, i, 0}));
-      for (int i = 2 * corner(m); i < 2 * steps(m); ++i) around_.push_back(node({Tooth, m, 1, i, 0}));
+      if (surface_.capped(m)) grid(options_.across, options_.across, true, m, 0, [&](int i, int j) { return node({Cap, m, 0, i, j}); });
+      for (int i = 2 * surface_.steps(m); i > 2 * corner(m); --i) around_.push_back(node({Tooth, m, -1, i, 0}));
+      for (int i = 2 * corner(m); i < 2 * surface_.steps(m); ++i) around_.push_back(node({Tooth, m, 1, i, 0}));
     }
     // A full turn has to close on the teeth; elements of at most 24 deg.
     plain_ = std::max(6, static_cast<int>(std::ceil((2 * pi - (last_ - first_ + 1) * pitch_) / (options_.plain_element * units::deg))));
@@ -333,13 +237,10 @@ class Section {
 
   const ContactGear& gear_;
   const ContactMeshOptions& options_;
-  ToothForm form_;
+  ToothSurface surface_;
+  const ToothForm& form_;
   double pitch_, rim_;
-  PathOfContact path_;
-  RootCurve root_;
-  double rounding_;  ///< [mm]
-  std::optional<RoundedTip> tip_;
-  int first_, last_, plain_{0}, loaded_first_, loaded_last_;
+  int first_, last_, plain_{0};
   std::vector<double> ring_ends_;  ///< radii, inwards [mm]
   int web_begin_{0}, web_end_{0};  ///< numbers of rings
   std::vector<Place> places_;

@@ -43,8 +43,7 @@ struct ContactModel {
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       const std::size_t g = m == Member::Pinion ? 0 : 1;
       const Flank& flank = g == 0 ? scene.pinion : scene.wheel;
-      const WebbedBody* web = task.web[m] ? &*task.web[m] : nullptr;
-      meshes[g] = contact_mesh({&pair, &flank, m, task.phase, task.bore_radius[g], first, last, task.half_face, web}, options);
+      meshes[g] = contact_mesh(contact_gear(task, pair, flank, m, first, last), options);
     }
     first_node = {0, meshes[0].solid.nodes.cols()};
     first_brick = {0, meshes[0].solid.bricks.cols()};
@@ -332,6 +331,11 @@ double ContactAnswer::peak_compression(int tooth) const {
   double peak = 0;
   for (const LayerLoad& l : layers) peak = l.tooth == tooth ? std::max(peak, l.peak_compression) : peak;
   return peak;
+}
+
+ContactGear contact_gear(const ContactTask& task, const GearPair& pair, const Flank& flank, Member member, int first, int last) {
+  const WebbedBody* web = task.web[member] ? &*task.web[member] : nullptr;
+  return {&pair, &flank, member, task.phase, task.bore_radius[member], first, last, task.half_face, web};
 }
 
 bool calculix_is_installed() { return calculix::is_installed(); }

@@ -17,12 +17,16 @@ struct ContactTask {
   FlankCondition condition{};                ///< modifications, and misalignment, which places the wheel
   double phase{not_given};                   ///< line phase of tooth pair 0 [base pitches], see PathOfContact
   double approach{not_given};                ///< turn of the pinion from where undisturbed flanks touch, times r_b1 cos(beta_b) [mm]
-  std::array<double, 2> bore_radius{};       ///< pinion, wheel [mm]
+  PerGear<double> bore_radius{};             ///< [mm]
   bool half_face{false};                     ///< see ContactGear
   bool plane_strain{false};                  ///< no node moves along the axis (spur gears)
   Material material{};                       ///< of both gears
   PerGear<std::optional<WebbedBody>> web{};  ///< with hub diameter and width; empty: solid discs
 };
+
+/// One gear of a task, with the tooth pairs first .. last meshed for contact.
+/// @param pair, flank  of the task; they have to outlive the result, as the task has
+ContactGear contact_gear(const ContactTask& task, const GearPair& pair, const Flank& flank, Member member, int first, int last);
 
 /// How CalculiX is to solve it.
 struct ContactSettings {

@@ -125,8 +125,7 @@ TEST_CASE("The outside model's tip roundings touch flank and tip cylinder and ar
     CHECK(place(rounded.angle()).norm() == Approx(std::hypot(pair[m].base_radius, rounded.flank_end())).epsilon(1e-12));
     // The program's flank ends where two tangent planes at the sharp tip have it. Model: what the involute bends over the rounding.
     CHECK(pair[m].roll_length_at(pair[m].tip_form_radius) == Approx(rounded.flank_end()).margin(0.05 * rho));
-    const ContactMesh mesh =
-        contact_mesh({&pair, &scene[m], m, task.phase, task.bore_radius[m == Member::Pinion ? 0 : 1], 0, 1, false}, edge_settings(task).mesh);
+    const ContactMesh mesh = contact_mesh(contact_gear(task, pair, scene[m], m, 0, 1), edge_settings(task).mesh);
     CHECK(mesh.solid.quality() > 0);  // no element is folded
   }
 }
@@ -138,8 +137,7 @@ TEST_CASE("The outside model's loaded flanks are the true ones", "[contact-truth
   const FlankAssembly scene = assemble_flanks(pair, {.modification = {c.task.condition.modification.pinion, {}}});
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     const Flank& flank = scene[m];
-    const ContactMesh mesh = contact_mesh({&pair, &flank, m, c.task.phase, c.task.bore_radius[m == Member::Pinion ? 0 : 1], 0, 1, c.task.half_face},
-                                          contact_mesh_options("coarse"));
+    const ContactMesh mesh = contact_mesh(contact_gear(c.task, pair, flank, m, 0, 1), contact_mesh_options("coarse"));
     CHECK(mesh.solid.quality() > 0.1);
     const double phi1 = PathOfContact(pair).pinion_angle_at(c.task.phase, pair);
     const double pitch = 2 * units::pi / pair[m].data.teeth, sense = m == Member::Pinion ? 1 : -1;
@@ -168,8 +166,7 @@ TEST_CASE("Stress along the outside model's fillets is that of a uniform strain"
   Eigen::Matrix3d turn;  // small, as the pinion's
   turn << 0, -2e-3, 0, 2e-3, 0, 0, 0, 0, 0;
   for (const Member m : {Member::Pinion, Member::Wheel}) {
-    const ContactMesh mesh = contact_mesh(
-        {&pair, &scene[m], m, c.task.phase, c.task.bore_radius[m == Member::Pinion ? 0 : 1], 0, 1, c.task.half_face}, contact_mesh_options("roots"));
+    const ContactMesh mesh = contact_mesh(contact_gear(c.task, pair, scene[m], m, 0, 1), contact_mesh_options("roots"));
     CHECK(mesh.solid.quality() > 0.05);  // no element is folded
     const auto fillet_under = [&](const Eigen::Matrix3d& gradient) {
       ContactAnswer answer;

@@ -66,14 +66,14 @@ std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, co
         .half_space = std::make_shared<const HalfSpaceCorrection>(
             half_space_correction(LoadedSection(pair[m], pair, task.material.poissons_ratio, fine_section()), pair[m]))};
   };
-  return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]), gear(Member::Wheel, task.bore_radius[1]));
+  return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius.pinion), gear(Member::Wheel, task.bore_radius.wheel));
 }
 
 GearStructures rigid_bore_structures(const ContactTask& task) {
   ComplianceTask own{
       .pair = make_gear_pair(task.pair), .model = ComplianceModel::Fe, .material = {task.material, task.material}, .root_stress = true};
-  own.body.pinion = {.bore_diameter = 2 * task.bore_radius[0], .hold = BodyHold::RigidBore};
-  own.body.wheel = {.bore_diameter = 2 * task.bore_radius[1], .hold = BodyHold::RigidBore};
+  own.body.pinion = {.bore_diameter = 2 * task.bore_radius.pinion, .hold = BodyHold::RigidBore};
+  own.body.wheel = {.bore_diameter = 2 * task.bore_radius.wheel, .hold = BodyHold::RigidBore};
   return build_compliance(own);
 }
 

@@ -17,7 +17,7 @@ using contact_truth::ContactTask;
 /// @param offset  of the web [mm]; NaN: a solid disc
 inline ContactTask webbed_task(double helix_angle_deg, double offset, double phase, double approach_um) {
   ContactTask task = contact_truth::contact_task(contact_truth::pair_data(helix_angle_deg, 40), phase, approach_um);
-  task.bore_radius[1] = 100;
+  task.bore_radius.wheel = 100;
   task.half_face = false;
   if (!std::isnan(offset)) {
     task.web.wheel = WebbedBody{.rim_thickness = 30, .web_thickness = 10, .web_offset = offset, .hub_diameter = 260, .hub_width = 40};
@@ -45,7 +45,7 @@ inline std::vector<BodyCase> body_cases() {
 inline GearStructures own_structures(const ContactTask& task, ComplianceModel model) {
   ComplianceTask own{.pair = make_gear_pair(task.pair), .model = model, .material = {task.material, task.material}};
   for (const Member m : {Member::Pinion, Member::Wheel}) {
-    own.body[m] = {.bore_diameter = 2 * task.bore_radius[m == Member::Pinion ? 0 : 1], .hold = BodyHold::RigidBore, .web = task.web[m]};
+    own.body[m] = {.bore_diameter = 2 * task.bore_radius[m], .hold = BodyHold::RigidBore, .web = task.web[m]};
   }
   return build_compliance(own);
 }

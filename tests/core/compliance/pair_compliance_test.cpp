@@ -6,6 +6,7 @@
 #include "core/compliance/finite_element/load_functional.hpp"
 #include "core/gear/involute.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -15,15 +16,10 @@ namespace {
 constexpr double kModule = 10, kWidth = 60;
 
 GearPair pair_of(Hand hand, WorkingFlank flank) {
-  PairData data;
-  data.normal_module = kModule;
-  data.helix_angle = 30 * units::deg;
+  PairData data = pair_cases::pair_data(18, 27, 30, kModule, kWidth);
   data.pinion_hand = hand;
   data.working_flank = flank;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = 27;
-  data.pinion.face_width = kWidth;
-  data.wheel.face_width = kWidth + 20;
+  data.wheel.face_width += 20;
   return make_gear_pair(data);
 }
 

@@ -9,6 +9,7 @@
 #include "core/compliance/pair/pair_compliance.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 
@@ -40,13 +41,9 @@ InfluenceTableRun solved(const ComplianceTask& task, Member member) {
 std::shared_ptr<const InfluenceTable> shared(InfluenceTableRun&& run) { return std::make_shared<const InfluenceTable>(std::move(*run.table)); }
 
 GearPair pair_with(double helix_deg, Hand hand, WorkingFlank flank) {
-  PairData data;
-  data.normal_module = kRimModule;
-  data.helix_angle = helix_deg * units::deg;
+  PairData data = pair_cases::pair_data(33, 33, helix_deg, kRimModule, kRimWidth);
   data.pinion_hand = hand;
   data.working_flank = flank;
-  data.pinion.teeth = data.wheel.teeth = 33;
-  data.pinion.face_width = data.wheel.face_width = kRimWidth;
   return make_gear_pair(data);
 }
 

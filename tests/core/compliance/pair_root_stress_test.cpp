@@ -5,6 +5,7 @@
 
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 
@@ -35,15 +36,10 @@ std::shared_ptr<const RootStressTable> telltale(double face_width) {
 TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[core][compliance][root-stress]") {
   const auto [hand, flank] =
       GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right}, std::pair{Hand::Right, WorkingFlank::Left});
-  PairData data;
-  data.normal_module = kStressModule;
-  data.helix_angle = 25 * units::deg;
+  PairData data = pair_cases::pair_data(20, 33, 25, kStressModule, kStressWidth);
   data.pinion_hand = hand;
   data.working_flank = flank;
-  data.pinion.teeth = 20;
-  data.wheel.teeth = 33;
-  data.pinion.face_width = kStressWidth;
-  data.wheel.face_width = kStressWidth + 8;
+  data.wheel.face_width += 8;
   const double offset = 1.5;
   const GearPair pair = make_gear_pair(data);
   const std::vector<ContactPoint> points =

@@ -32,7 +32,8 @@ FlankCondition with_errors() {
 }  // namespace
 
 TEST_CASE("Every effect has a unique name and a reason for being on or off", "[core][effects]") {
-  const auto names = effect_names();
+  std::vector<std::string_view> names;
+  for (const Effect* effect : registered_effects()) names.push_back(effect->name());
   CHECK(std::set<std::string_view>(names.begin(), names.end()).size() == names.size());
   for (const EffectFacts& facts : {EffectFacts{}, EffectFacts{true, true, {misaligned(), modified(), with_errors()}, true, true, true, true}}) {
     const EffectDecisions effects = decide_effects(facts);

@@ -9,6 +9,7 @@
 #include "core/effects/decision.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/effects/instruction_count.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -53,12 +54,7 @@ struct Scene {
   FlankCondition condition{all_kinds()};
 
   static PairData data() {
-    PairData data;
-    data.normal_module = 5;
-    data.helix_angle = 15 * units::deg;
-    data.pinion.teeth = 20;
-    data.wheel.teeth = 31;
-    data.pinion.face_width = data.wheel.face_width = 40;
+    PairData data = pair_cases::pair_data(20, 31, 15, 5, 40);
     data.pinion.tip_rounding = data.wheel.tip_rounding = 0.25;
     return data;
   }

@@ -38,6 +38,11 @@ Points even(double from, double to, int count) {
   return points;
 }
 
+/// The spline through all samples.
+SplineFit interpolating_spline(const GridSamples& samples) {
+  return fit_spline(samples, {most_spline_pieces(static_cast<int>(samples.u.size())), most_spline_pieces(static_cast<int>(samples.v.size()))});
+}
+
 /// Random samples on the uneven grid: a surface with all derivatives in action.
 GridSamples rough_samples() {
   std::mt19937 random(7);

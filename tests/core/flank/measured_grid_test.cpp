@@ -12,6 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/flank/flank.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 using units::deg;
@@ -22,15 +23,7 @@ namespace {
 constexpr double grid_round_off = 1e-14;  // mm, on deviations of some 0.05 mm
 
 /// The pair of "TCA of real helical gears", table 1.
-GearPair real_pair() {
-  PairData data;
-  data.normal_module = 6.0;
-  data.helix_angle = 24.43 * deg;
-  data.pinion.teeth = 17;
-  data.wheel.teeth = 44;
-  data.pinion.face_width = data.wheel.face_width = 92.0;
-  return make_gear_pair(data);
-}
+GearPair real_pair() { return pair_cases::pair(17, 44, 24.43, 6.0, 92.0); }
 
 /// Normal deviation [mm, + = metal added] at radius and z.
 using Deviation = std::function<double(double, double)>;

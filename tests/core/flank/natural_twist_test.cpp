@@ -8,6 +8,7 @@
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/effects/instruction_count.hpp"
 #include "tests/core/flank/grinding_simulation.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 
@@ -16,15 +17,10 @@ namespace {
 constexpr std::array processes{GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding};
 
 /// Haddad's pair 18:54.
-GearPair pair_of(Hand hand, double helix_angle = 30 * units::deg, WorkingFlank working = WorkingFlank::Right) {
-  PairData data;
-  data.normal_module = 10.0;
-  data.helix_angle = helix_angle;
+GearPair pair_of(Hand hand, double helix_angle_deg = 30, WorkingFlank working = WorkingFlank::Right) {
+  PairData data = pair_cases::pair_data(18, 54, helix_angle_deg, 10.0, 120.0);
   data.pinion_hand = hand;
   data.working_flank = working;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = 54;
-  data.pinion.face_width = data.wheel.face_width = 120.0;
   return make_gear_pair(data);
 }
 
@@ -108,7 +104,7 @@ TEST_CASE("Crowning that is generated twists by 8 C tan(beta_b) g_alpha / b", "[
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   const WorkingFlank working = GENERATE(WorkingFlank::Right, WorkingFlank::Left);
-  const GearPair pair = pair_of(hand, 30 * units::deg, working);
+  const GearPair pair = pair_of(hand, 30, working);
   const Modification m = with_process(crowned(), GrindingKind::GeneratingGrinding);
   const double g = roll_at(pair[member], 1.0) - roll_at(pair[member], 0.0), b = 120.0, tan_base_helix = std::tan(pair.base_helix_angle);
   // The sign is that of the helix in the flank's own frame: removed more at the tip where the line of contact reaches the tip last.
@@ -157,8 +153,8 @@ TEST_CASE("Form grinding twists to the other side, the more the larger the wheel
 
 TEST_CASE("The contact line of a form wheel is a polynomial to 1e-5 mm", "[core][flank][grinding]") {
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
-  const double helix_angle = GENERATE(8.0, 30.0, 44.0) * units::deg;
-  const GearPair pair = pair_of(Hand::Right, helix_angle);
+  const double helix_angle_deg = GENERATE(8.0, 30.0, 44.0);
+  const GearPair pair = pair_of(Hand::Right, helix_angle_deg);
   GrindingProcess process;
   process.kind = GrindingKind::FormGrinding;
   process.wheel_diameter = GENERATE(80.0, 400.0);
@@ -220,7 +216,7 @@ TEST_CASE("Grinding moves every lead modification and no other", "[core][flank][
 TEST_CASE("A left-hand gear is twisted as the mirror image of a right-hand one", "[core][flank][grinding][symmetry]") {
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GrindingKind kind = GENERATE(GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding);
-  const GearPair right = pair_of(Hand::Right), left = pair_of(Hand::Left), coast = pair_of(Hand::Right, 30 * units::deg, WorkingFlank::Left);
+  const GearPair right = pair_of(Hand::Right), left = pair_of(Hand::Left), coast = pair_of(Hand::Right, 30, WorkingFlank::Left);
   Modification m = relieved(), mirrored = relieved();
   m.lead_crowning = mirrored.lead_crowning = 5 * units::um;
   m.lead_slope = 4 * units::um;
@@ -277,7 +273,7 @@ TEST_CASE("The derivatives of a ground flank are its differences", "[core][flank
 }
 
 TEST_CASE("A form wheel that does not fit is refused by its key", "[core][flank][grinding]") {
-  const GearPair pair = pair_of(Hand::Right, 45 * units::deg);
+  const GearPair pair = pair_of(Hand::Right, 45);
   Modification m = with_process(crowned(), GrindingKind::FormGrinding);
   m.process.wheel_diameter = -150.0;  // inside the gear: nothing that a study can say
   try {

@@ -5,6 +5,7 @@
 #include "core/flank/flank.hpp"
 #include "core/flank/natural_twist.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 
@@ -13,15 +14,7 @@ namespace {
 constexpr ModificationParameter the_compensation = parameter_of("twist_compensation");
 
 /// Haddad's pair 18:54.
-GearPair compensated_pair(double helix_angle) {
-  PairData data;
-  data.normal_module = 10.0;
-  data.helix_angle = helix_angle;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = 54;
-  data.pinion.face_width = data.wheel.face_width = 120.0;
-  return make_gear_pair(data);
-}
+GearPair compensated_pair(double helix_angle_deg) { return pair_cases::pair(18, 54, helix_angle_deg, 10.0, 120.0); }
 
 Modification compensated_lead(GrindingKind kind, double part) {
   Modification m;
@@ -52,7 +45,7 @@ TEST_CASE("The derivative by a compensation is that of the ground flank, and its
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GrindingKind kind = GENERATE(GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding);
   const double part = GENERATE(0.0, 0.3, 1.0);  // 1: nothing is twisted, but less compensation would twist
-  const GearPair pair = compensated_pair(30 * units::deg);
+  const GearPair pair = compensated_pair(30);
   const Modification m = compensated_lead(kind, part);
   const GroundDerivative derivative = ground_derivative(pair, member, m, the_compensation);
   double largest = 0.0;
@@ -86,7 +79,7 @@ TEST_CASE("Nothing that twists nothing has a derivative by its compensation", "[
     const GroundDerivative derivative = ground_derivative(pair, Member::Pinion, m, the_compensation);
     return derivative.at(compensated_radius(pair.pinion, 1.0), 50.0);
   };
-  const GearPair helical = compensated_pair(30 * units::deg), spur = compensated_pair(0.0);
+  const GearPair helical = compensated_pair(30), spur = compensated_pair(0.0);
   CHECK(at_the_tip(helical, compensated_lead(GrindingKind::GeneratingGrinding, 0.5)) != 0.0);
   CHECK(at_the_tip(helical, compensated_lead(GrindingKind::None, 0.5)) == 0.0);
   CHECK(at_the_tip(helical, compensated_lead(GrindingKind::Topological, 0.5)) == 0.0);
@@ -99,7 +92,7 @@ TEST_CASE("Nothing that twists nothing has a derivative by its compensation", "[
 
 TEST_CASE("The derivative by a compensation takes the twist away in proportion", "[core][flank][grinding][closed-form]") {
   // With crowning alone D = C (2/b)^2 ((z - (1 - c) h)^2 - z^2), so that dD/dc = 2 C (2/b)^2 (z - (1 - c) h) h with h = -tan(beta_b) (rho - rho_0).
-  const GearPair pair = compensated_pair(30 * units::deg);
+  const GearPair pair = compensated_pair(30);
   Modification m;
   m.lead_crowning = 8 * units::um;
   m.process = {GrindingKind::GeneratingGrinding, 0.4};

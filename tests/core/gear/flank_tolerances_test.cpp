@@ -1,5 +1,6 @@
 #include "core/gear/flank_tolerances.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -41,13 +42,7 @@ TEST_CASE("Two classes up double every flank tolerance", "[core][gear][iso1328]"
 }
 
 TEST_CASE("Flank tolerances belong to the gear of a pair that they are asked for", "[core][gear][iso1328]") {
-  PairData data;
-  data.normal_module = 10.0;
-  data.helix_angle = 30 * units::deg;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = 54;
-  data.pinion.face_width = data.wheel.face_width = 120.0;
-  const GearPair pair = make_gear_pair(data);
+  const GearPair pair = pair_cases::pair(18, 54, 30, 10.0, 120.0);
   const double d = 18 * 10.0 / std::cos(30 * units::deg);
   const FlankTolerances pinion = flank_tolerances(ToleranceData::of(pair, Member::Pinion), 6);
   CHECK(um(pinion.single_pitch) == Approx(std::sqrt(2.0) * (0.001 * d + 9.0)).epsilon(round_off));

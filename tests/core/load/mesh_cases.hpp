@@ -8,25 +8,15 @@
 #include "core/rating/contact_peaks.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 /// Gear pairs and readings of a loaded cycle that several tests share.
 namespace flankwright::mesh_cases {
 
 inline const Material steel{};
 
-inline PairData pair_data(int z1, int z2, double helix_angle_deg, double module, double face_width) {
-  PairData data;
-  data.normal_module = module;
-  data.helix_angle = helix_angle_deg * units::deg;
-  data.pinion.teeth = z1;
-  data.wheel.teeth = z2;
-  data.pinion.face_width = data.wheel.face_width = face_width;
-  return data;
-}
-
-inline GearPair pair(int z1, int z2, double helix_angle_deg, double module, double face_width) {
-  return make_gear_pair(pair_data(z1, z2, helix_angle_deg, module, face_width));
-}
+using pair_cases::pair;
+using pair_cases::pair_data;
 
 inline MeshModel model(const GearPair& gears, const MeshResolution& resolution, const MeshEffects& effects = {}) {
   return make_mesh_model(gears, {steel, steel}, resolution, effects);

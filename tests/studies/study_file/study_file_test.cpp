@@ -70,7 +70,7 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
   REQUIRE(study.scenes.size() == 1);
   CHECK(study.scenes.front().name == Scene{}.name);
   CHECK(study.optimise.objective.size() == 1);
-  CHECK(std::isinf(study.optimise.max_seconds));
+  CHECK(std::isinf(study.optimise.solver.max_seconds));
   CHECK(parse_study(replaced(small_study, "title = \"Small\"\n", ""), "dir/pump.toml").title == "pump");
 }
 
@@ -172,7 +172,7 @@ wheel.modification.tip_relief.height = [0.5, 2]
   CHECK(table.objective[1].harmonic == 2);
   CHECK(table.objective[1].weight == 0.5);
   CHECK(table.over == Aggregate::MeanPlusSigmas);
-  CHECK(table.max_seconds == 120.0);
+  CHECK(table.solver.max_seconds == 120.0);
   REQUIRE(table.variables.size() == 3);
   CHECK(table.variables[0].upper == Approx(0.040).epsilon(file_round_off));
   CHECK(table.variables[1].member == Member::Wheel);

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/compliance/local/contact_law.hpp"
-#include "core/compliance/finite_element/load_functional.hpp"
 #include "core/compliance/local/hertz_line.hpp"
+#include "tests/core/compliance/finite_element/flank_traction.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 
 using namespace flankwright;
@@ -47,25 +47,12 @@ std::vector<NodeSupport> shaft_and(const GearMesh& mesh, Held&& along_axis) {
 
 /// Nodal loads of a unit line load [N per mm] with Hertz's pressure around a point of the flank, cut off at the tip.
 Eigen::VectorXd hertzian_load(const GearMesh& mesh, const LoadFrame& frame) {
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(mesh.solid.nodes.size());
-  double total = 0;
-  constexpr int kParts = 8;
-  for (const MeshFace& face : mesh.surfaces(0).flank) {
-    const FaceNodes nodes = mesh.face_nodes(face);
-    for (int i = 0; i < 9 * kParts * kParts; ++i) {
-      const int row = i / (3 * kParts), column = i % (3 * kParts);
-      const auto local = [](int k) { return -1 + (2 * (k / 3) + 1 + gauss3_abscissae[k % 3]) / kParts; };
-      const FaceShape shape = face_shape(local(row), local(column));
-      const double off = (nodes * shape.values - frame.position).head<2>().norm() / kHalfWidth;
-      if (off >= 1) continue;
-      const Eigen::Matrix<double, 3, 2> tangents = nodes * shape.derivatives;
-      const double force =
-          std::sqrt(1 - off * off) * gauss3_weights[row % 3] * gauss3_weights[column % 3] * tangents.col(0).cross(tangents.col(1)).norm();
-      total += force;
-      for (int k = 0; k < 8; ++k) load.segment<3>(3 * face[k]) -= force * shape.values[k] * frame.normal;
-    }
-  }
-  return load * mesh.face_width / total;
+  const auto pressure = [&](const Eigen::Vector3d& x) {
+    const double off = (x - frame.position).head<2>().norm() / kHalfWidth;
+    return off < 1 ? std::sqrt(1 - off * off) : 0.0;
+  };
+  const auto along_normal = [&](const Eigen::Vector3d& area) -> Eigen::Vector3d { return area.norm() * frame.normal; };
+  return flank_load(mesh, 0, 8, pressure, along_normal) * mesh.face_width;
 }
 
 /// Displacement at a place of the mesh.

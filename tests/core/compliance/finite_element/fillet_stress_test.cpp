@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/compliance/finite_element/influence.hpp"
+#include "tests/core/compliance/finite_element/brick_stress.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 
 using namespace flankwright;
@@ -75,9 +76,7 @@ SurfaceCheck check_surface(int half_thickness_elements) {
       const BrickNodes nodes = mesh.solid.brick_nodes(e);
       BrickNodes moved;
       for (int c = 0; c < 20; ++c) moved.col(c) = u.segment<3>(3 * mesh.solid.bricks(c, e));
-      const auto s = brick_stress(nodes, moved, local, kSteel);
-      Eigen::Matrix3d stress;
-      stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+      const Eigen::Matrix3d stress = brick_stress(nodes, moved, local, kSteel);
       const FaceNodes on_face = mesh.face_nodes(face);
       const Eigen::Matrix<double, 3, 2> tangents = on_face * face_shape(0, 0).derivatives;
       const Eigen::Vector3d t = tangents.col(0).normalized();

@@ -17,6 +17,13 @@ RingDivision even(int n, double first) {
   return ring;
 }
 
+bool has_corner(const RingDivision& ring, double angle) {
+  for (int i = 0; i < ring.elements(); ++i) {
+    if (std::abs(std::remainder(ring.angle(2 * i) - angle, 2 * pi)) < 1e-9) return true;  // round-off of sums of angles
+  }
+  return false;
+}
+
 double length(const RingDivision& ring, int element) { return ring.angle(2 * element + 2) - ring.angle(2 * element); }
 
 }  // namespace
@@ -36,7 +43,7 @@ TEST_CASE("A ring's joined elements fill the turn, are as long as they may be an
     turn += here;
   }
   CHECK(turn == Approx(2 * pi));
-  for (const int joint : joined.joints) CHECK(!joined.division.has_corner(outer.angle(joint)));
+  for (const int joint : joined.joints) CHECK(!has_corner(joined.division, outer.angle(joint)));
 }
 
 TEST_CASE("Elements too long together, too unlike, or parted by a corner that stays are not joined", "[core][compliance][fe]") {
@@ -45,7 +52,7 @@ TEST_CASE("Elements too long together, too unlike, or parted by a corner that st
   std::vector<double> corners;
   for (int i = 0; i < 12; ++i) corners.push_back(outer.angle(2 * i));
   CHECK(join_neighbours(outer, pi, corners).joints.empty());
-  CHECK(join_neighbours(outer, pi, {corners[1]}).division.has_corner(corners[1] + 2 * pi));
+  CHECK(has_corner(join_neighbours(outer, pi, {corners[1]}).division, corners[1] + 2 * pi));
 
   RingDivision unlike;  // 1 : 3, in turn
   for (int i = 0; i < 8; ++i) {
@@ -62,5 +69,5 @@ TEST_CASE("Rings that are alike on both sides of the first tooth stay so", "[cor
   RingDivision ring = outer;
   for (const double longest : {0.2, 0.4}) ring = join_neighbours(ring, longest, {}).division;
   CHECK(ring.elements() < outer.elements());
-  for (int i = 0; i < ring.elements(); ++i) CHECK(ring.has_corner(-ring.angle(2 * i)));
+  for (int i = 0; i < ring.elements(); ++i) CHECK(has_corner(ring, -ring.angle(2 * i)));
 }

@@ -12,21 +12,14 @@
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/compliance/finite_element/flank_traction.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 using namespace flankwright::test;
 
 namespace {
 
-GearPair pair_of(double helix_deg, double face) {
-  PairData data;
-  data.normal_module = 1;
-  data.helix_angle = helix_deg * units::deg;
-  data.pinion.teeth = 18;
-  data.wheel.teeth = 54;
-  data.pinion.face_width = data.wheel.face_width = face;
-  return make_gear_pair(data);
-}
+GearPair pair_of(double helix_deg, double face) { return pair_cases::pair(18, 54, helix_deg, 1, face); }
 
 /// One gear of a pair, m_n = 1, meshed in three dimensions.
 struct Tooth {

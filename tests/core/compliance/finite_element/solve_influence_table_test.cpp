@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/contact/path/contact_points.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -34,15 +35,7 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, const std::vector<Fla
 }
 
 /// A pair of gears with its common face width in modules.
-GearPair pair_of(int pinion, int wheel, double helix_deg, double width) {
-  PairData data;
-  data.normal_module = 1;
-  data.helix_angle = helix_deg * units::deg;
-  data.pinion.teeth = pinion;
-  data.wheel.teeth = wheel;
-  data.pinion.face_width = data.wheel.face_width = width;
-  return make_gear_pair(data);
-}
+GearPair pair_of(int pinion, int wheel, double helix_deg, double width) { return pair_cases::pair(pinion, wheel, helix_deg, 1, width); }
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "core/base/units.hpp"
 #include "core/compliance/finite_element/solve_influence_table.hpp"
 #include "core/compliance/fitted/corrected_compliance.hpp"
+#include "core/compliance/tooth/flank_stations.hpp"
 #include "tests/core/compliance/fitted/random_gear.hpp"
 #include "tests/core/compliance/fitted/synthetic_gear.hpp"
 
@@ -19,6 +20,17 @@ using namespace flankwright::testing;
 using units::deg;
 
 namespace {
+
+/// Influence values between stations of one tooth by the default mesh, E = 1, nu = 0.3.
+InfluenceSample element_sample(const GearProportions& gear, const std::vector<FlankStation>& stations, const ReferenceProfile& profile) {
+  const InfluenceModel model(standard_gear(gear, profile), {1.0, 0.3}, {});
+  const ToothForm& form = model.mesh().form;
+  std::vector<FlankPoint> points;
+  for (const FlankStation& station : stations) {
+    points.push_back({station.tooth, flank_radius(form, station.u), station.zeta - gear.relative_face / 2});
+  }
+  return {gear, stations, model.influence(points).compliance};
+}
 
 std::shared_ptr<const CorrectedCompliance> refined(const GearProportions& gear, const ReferenceProfile& profile = {}) {
   InfluenceTableTask task{.gear = standard_gear(gear, profile), .mesh = coarse_mesh(), .grid = station_grid(gear.relative_face)};
@@ -159,7 +171,7 @@ TEST_CASE("Fitted gears that the library has not seen come close to finite eleme
       {{14, 5 * deg, 8, 0.4}, {.rack = {1, 1.25, 0.25}, .pressure_angle = 19 * deg}},
   }));
   const auto stations = test_stations(gear.relative_face);
-  const InfluenceSample fine = element_sample(gear, {}, stations, profile);
+  const InfluenceSample fine = element_sample(gear, stations, profile);
   const auto model = refined(gear, profile);
   const InfluenceSample own = on_fine_tooth(fine);
   auto errors = residual_statistics(*model, {&fine, 1}, kScaleFloor);

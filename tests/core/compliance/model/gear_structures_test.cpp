@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 
@@ -10,11 +11,8 @@ namespace {
 
 /// Two equal narrow spur gears: one small finite-element run.
 ComplianceTask twins(ComplianceModel model) {
-  PairData data;
-  data.normal_module = 4;
-  data.pinion.teeth = data.wheel.teeth = 12;
+  PairData data = pair_cases::pair_data(12, 12, 0, 4, 4);
   data.pinion.profile_shift = data.wheel.profile_shift = 0.3;
-  data.pinion.face_width = data.wheel.face_width = 4;
   return {.pair = make_gear_pair(data), .model = model};
 }
 

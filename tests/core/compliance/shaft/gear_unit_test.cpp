@@ -7,6 +7,7 @@
 #include "core/compliance/shaft/unit_checks.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/compliance/shaft/pitch_point_lag.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 
@@ -15,14 +16,9 @@ namespace {
 constexpr double in_unit = 1e-9;  // round-off of a system of three shafts
 
 GearPair second_stage(WorkingFlank flank = WorkingFlank::Left, Hand hand = Hand::Left) {
-  PairData data;
-  data.normal_module = 6.5;
-  data.helix_angle = 10 * units::deg;
+  PairData data = pair_cases::pair_data(23, 34, 10, 6.5, 74);
   data.pinion_hand = hand;
   data.working_flank = flank;
-  data.pinion.teeth = 23;
-  data.wheel.teeth = 34;
-  data.pinion.face_width = data.wheel.face_width = 74;
   return make_gear_pair(data);
 }
 

@@ -6,6 +6,7 @@
 #include "core/compliance/shaft/unit_checks.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/compliance/shaft/pitch_point_lag.hpp"
+#include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
 
@@ -14,14 +15,9 @@ namespace {
 constexpr double by_load_round_off = 1e-9;  // of systems of three shafts and their equilibrium
 
 GearPair helical_pair(WorkingFlank flank = WorkingFlank::Left) {
-  PairData data;
-  data.normal_module = 6.5;
-  data.helix_angle = 10 * units::deg;
+  PairData data = pair_cases::pair_data(23, 34, 10, 6.5, 74);
   data.pinion_hand = Hand::Left;
   data.working_flank = flank;
-  data.pinion.teeth = 23;
-  data.wheel.teeth = 34;
-  data.pinion.face_width = data.wheel.face_width = 74;
   return make_gear_pair(data);
 }
 

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/core/gear/pair_cases.hpp"
 #include "tests/reference/eigenvalues.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -14,14 +15,9 @@ constexpr double kRoundOff = 1e-11;
 constexpr double kFace = 60, kLength = 200;
 
 GearPair pair_of(double helix_deg, Hand hand = Hand::Right, WorkingFlank flank = WorkingFlank::Right) {
-  PairData data;
-  data.normal_module = 5;
-  data.helix_angle = helix_deg * units::deg;
+  PairData data = pair_cases::pair_data(21, 54, helix_deg, 5, kFace);
   data.pinion_hand = hand;
   data.working_flank = flank;
-  data.pinion.teeth = 21;
-  data.wheel.teeth = 54;
-  data.pinion.face_width = data.wheel.face_width = kFace;
   return make_gear_pair(data);
 }
 
