@@ -7,6 +7,7 @@
 
 #include "core/compliance/finite_element/brick.hpp"
 #include "core/compliance/finite_element/fillet_stress.hpp"
+#include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "tests/benchmarks/contact_truth/root_curve.hpp"
 
