@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/compliance/local/contact_kernel.hpp"
@@ -7,8 +8,8 @@
 
 namespace flankwright {
 
-/// Contact yields under the loads beside it as well. The contact law has an even load in mind; where the load rises, falls or ends along the line, the
-/// neighbours of a point pull it down more or less than that. The influence matrix gets what the kernel g of both bodies has between the points of a line,
+/// Contact yields under the loads beside it as well. The contact law is that of an even load. Where the load rises, falls or ends along the line, the
+/// loads beside a point sink it more or less than an even load would. The influence matrix gets what the kernel g of both bodies has between the points of a line,
 /// and loses on its diagonal what the laws have of g already for an even load over the common usable face [mm/N],
 ///
 ///     K_ij = g_ij,    K_ii a_i = int_line g dt - sum over j != i of a_j g_ij - int_face g dt,

@@ -82,7 +82,7 @@ class MeshBuilder {
   std::vector<Corrections> corrections;               ///< one a point
   OutsideMotion outside;                              ///< of the shafts by other forces than the mesh's
   std::vector<ContactLaw> laws;                       ///< one a point, or none
-  Eigen::VectorXd even_load_compliance;               ///< what K gives back of these on its diagonal, see ContactCouplingEffect [mm^2/N]
+  Eigen::VectorXd even_load_compliance;               ///< part of the laws' compliance that K takes back, see ContactCouplingEffect [mm^2/N]
   RootStressInfluence root_stress;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace flankwright {
 
-/// What a force on a line of contact makes one body yield elsewhere on this line, between flank and the depth h: the kernel g of which the law of an even
-/// load, see ContactLaw, is the integral over the face, but for a part that stays with the point's own load. In the bracket of FreeEnd, (2/pi)(w/E), per length,
+/// The deflection of one body between its flank and the depth h, at one place of a line of contact, under a force at another place of this line. The law of
+/// an even load, see ContactLaw, is the integral of this kernel g over the face, but for a part that stays with the point's own load. In the bracket of FreeEnd, (2/pi)(w/E), per length,
 ///
 ///     g(s, t) = G(s - t) + G(s + t) + lambda (1/x - x/(x^2 + (a' h)^2)),   x = s + t + e,
 ///     G(r) = (1 - nu^2)/2 [1/sqrt(r^2 + e^2) - 1/sqrt(r^2 + H^2)] - (1 + nu)/4 h^2/(r^2 + H^2)^(3/2),   H^2 = h^2 + e^2,
