@@ -20,6 +20,7 @@ struct ComparedDesign {
   double objective{not_given};             ///< outside units
   double constraint_violation{not_given};  ///< DesignProblem::violation() [-]
   std::vector<double> scene_measures;      ///< per scene, outside units
+  int intervals{0};                        ///< of a full contact line, which it was analysed with
   std::string failure;                     ///< why it could not be analysed; empty: it was
 
   /// Analysed, and no bound exceeded by more than DesignLog::tolerance.
@@ -29,6 +30,10 @@ struct ComparedDesign {
 /// Analyses designs over the scenes of a task, many at a time; the same bits whatever the number of threads. A design whose load
 /// distribution does not converge is kept with its failure.
 std::vector<ComparedDesign> compare_designs(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
+
+/// The same by the coarse resolution of a search, see coarser(), where the task allows one. The best, or the nearest to keeping the constraints, is analysed anew
+/// at the task's own resolution until the best is one that has been. The others keep what the coarse resolution has.
+std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
 
 /// The feasible design of least objective, the first of equals; null where none is feasible.
 const ComparedDesign* best_of(const std::vector<ComparedDesign>& designs);

@@ -38,11 +38,12 @@ class DesignRun {
     first_objective();
     restore();
     DesignProblem last = later_objectives();
-    result_.optimality = first_order_optimality(last, x_);
+    // A design that exceeds the constraints is no optimum of the objective.
+    if (result_.status != SolverStatus::Infeasible) result_.optimality = first_order_optimality(last, x_);
     judge_stall();
     result_.gradient_evaluations = uses_gradients(options_.solver.name) ? result_.evaluations : 0;
     result_.after = report_design(problem_, problem_.analyse(x_, false));
-    to_grind(last);
+    if (options_.to_grind) choose_what_to_grind(problem_, last, x_, left(), result_);
     result_.seconds = clock_.seconds();
     return std::move(result_);
   }
@@ -126,7 +127,7 @@ class DesignRun {
     }
     if (nearest.status != SolverStatus::Converged && nearest.status != SolverStatus::Stalled) return;
     result_.status = SolverStatus::Infeasible;
-    result_.message = "no design that keeps the constraints was found; this one exceeds them by least, " + in_percent(excess);
+    result_.message = message_of_excess(excess);
   }
 
   /// The problem of the last objective, at x_.
@@ -154,16 +155,6 @@ class DesignRun {
     return stage;
   }
 
-  void to_grind(DesignProblem& last) {
-    DesignToGrind found = design_to_grind(last, x_, left());
-    result_.evaluations += found.analyses;
-    result_.failures += found.failures;
-    if (found.x == x_ && !found.is_changed) return;
-    if (found.is_changed) result_.exact = result_.after;  // else only a trace of an amount became nothing
-    result_.choices = std::move(found.choices);
-    result_.after = report_design(problem_, problem_.analyse(found.x, false));
-  }
-
   DesignProblem& problem_;
   const DesignOptions& options_;
   const Stopwatch clock_;
@@ -172,6 +163,10 @@ class DesignRun {
 };
 
 }  // namespace
+
+std::string message_of_excess(double excess) {
+  return "no design that keeps the constraints was found; this one exceeds them by least, " + in_percent(excess);
+}
 
 DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages) {
   const DesignTask& task = problem.task();
@@ -183,6 +178,16 @@ DesignProblem last_stage(const DesignProblem& problem, const std::vector<Lexicog
     objective = task.later_objectives[i];
   }
   return problem.judged_by(objective, bounds);
+}
+
+void choose_what_to_grind(DesignProblem& problem, DesignProblem& last, const Eigen::VectorXd& x, const SolverOptions& options, DesignResult& result) {
+  DesignToGrind found = design_to_grind(last, x, options);
+  result.evaluations += found.analyses;
+  result.failures += found.failures;
+  if (found.x == x && !found.is_changed) return;
+  if (found.is_changed) result.exact = result.after;  // else only a trace of an amount became nothing
+  result.choices = std::move(found.choices);
+  result.after = report_design(problem, problem.analyse(found.x, false));
 }
 
 DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis) {

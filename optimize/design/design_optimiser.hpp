@@ -67,6 +67,7 @@ struct DesignOptions {
   int starts{1};         ///< >= 1
   /// Analyses of the search itself, without stages and rounding, >= 1; those of `solver` where that is less.
   int most_search_analyses{std::numeric_limits<int>::max()};
+  bool to_grind{true};  ///< false: the exact optimum is left as it is, without steps and grinding limits
 };
 
 /// Chooses the modifications of a task: from all starts (run_from_starts()), or, where none meets a design that keeps the constraints, the one that
@@ -76,8 +77,17 @@ struct DesignOptions {
 DesignResult optimise_design(DesignProblem& problem, const DesignOptions& options);
 inline DesignResult optimise_design(DesignProblem& problem, const SolverOptions& options) { return optimise_design(problem, DesignOptions{options}); }
 
+/// What a result says where no design keeps the constraints.
+/// @param excess  of this one over the constraint that it exceeds most [-, relative to the limit]
+std::string message_of_excess(double excess);
+
 /// What the optimality of a result is about: the problem itself, or of a list the last objective's, those before it at the limits they kept.
 DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages);
+
+/// Replaces the design of a result by what can be ground of it, see design_to_grind().
+/// @param last  the problem of the last objective, see last_stage()
+/// @param x     the design of the result, scaled
+void choose_what_to_grind(DesignProblem& problem, DesignProblem& last, const Eigen::VectorXd& x, const SolverOptions& options, DesignResult& result);
 
 /// A design as results show it.
 DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis);

@@ -5,6 +5,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/design_log.hpp"
+#include "optimize/design/task_checks.hpp"
 
 namespace flankwright {
 
@@ -65,6 +66,13 @@ void join(const DesignResult& coarse, DesignResult& fine) {
   fine.history = std::move(history);
 }
 
+/// The budgets that a design leaves.
+SolverOptions left_of(SolverOptions options, const DesignResult& found) {
+  options.max_evaluations = std::max(1, options.max_evaluations - found.evaluations);
+  options.max_seconds = std::max(1e-3, options.max_seconds - found.seconds);
+  return options;
+}
+
 }  // namespace
 
 bool can_be_coarser(const DesignTask& task) {
@@ -79,6 +87,7 @@ DesignTask coarser(DesignTask task) {
   const int positions = static_cast<int>(phases.size());
   if (positions > most_search_positions && phases == equally_spaced_phases(positions)) phases = equally_spaced_phases(most_search_positions);
   if (task.search_structure) task.structure = task.search_structure;
+  if (!asks_for_root_stress(task)) task.root_stress = nullptr;  // to be shown it is not needed
   for (DesignVariable& variable : task.variables) variable.step = 0.0;
   task.grindable = {};
   return task;
@@ -115,15 +124,25 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
 void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
   DesignOptions finish = options;
   finish.starts = 1;
+  finish.solver = left_of(options.solver, found.design);
   finish.solver.name = options.solver.finisher == "none" ? options.solver.name : options.solver.finisher;
   finish.solver.finisher = "none";
-  finish.solver.max_evaluations = std::max(1, options.solver.max_evaluations - found.design.evaluations);
-  finish.solver.max_seconds = std::max(1e-3, options.solver.max_seconds - found.design.seconds);
   finish.most_search_analyses = most_fine_analyses;
   DesignResult fine = optimise_design(problem, finish);
   found.fine.analyses += fine.evaluations;
   join(found.design, fine);
   found.design = std::move(fine);
+}
+
+void choose_what_to_grind(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  const Stopwatch clock;
+  DesignProblem last = last_stage(problem, found.design.stages);
+  const Eigen::VectorXd x = problem.scaled_design(found.design.after.variables).cwiseMax(0.0).cwiseMin(1.0);
+  const int before = found.design.evaluations;
+  choose_what_to_grind(problem, last, x, left_of(options.solver, found.design), found.design);
+  found.fine.analyses += found.design.evaluations - before;
+  found.fine.seconds += clock.seconds();
+  found.design.seconds += clock.seconds();
 }
 
 }  // namespace flankwright

@@ -38,4 +38,7 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
 /// Continues at the fine level from the problem's start by the finisher; the result replaces the design's fine part.
 void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
 
+/// What a search with DesignOptions::to_grind = false has left: chooses what can be ground of the design found.
+void choose_what_to_grind(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+
 }  // namespace flankwright

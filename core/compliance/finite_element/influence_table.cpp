@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/wide_sum.hpp"
 
 namespace flankwright {
 namespace {
@@ -93,7 +94,10 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) c
         const LocalStation& force = stations[q];
         deflection.setZero();
         for (int k = 0; k < 4; ++k) {
-          deflection.noalias() += table.middleCols<4>(force.rows[static_cast<std::size_t>(k)]) * (force.along_u[k] * force.along_zeta);
+          const double* first = table.col(force.rows[static_cast<std::size_t>(k)]).data();
+          const Eigen::Vector4d factors = force.along_u[k] * force.along_zeta;
+          add_four_columns({first, first + grid_.size(), first + 2 * grid_.size(), first + 3 * grid_.size()},
+                           {factors[0], factors[1], factors[2], factors[3]}, grid_.size(), deflection.data());
         }
         for (const std::size_t p : rows) {
           if (tooth == loaded && p > q) break;

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/base/wide_sum.hpp"
 #include "core/compliance/pair/pair_compliance.hpp"
 
 namespace flankwright {
@@ -33,7 +34,7 @@ std::vector<Eigen::VectorXd> RootStressInfluence::components(const std::vector<c
   for (const auto& [table, uses] : tables) {
     Eigen::MatrixXd columns(table->cols(), std::ssize(uses));
     for (std::size_t k = 0; k < uses.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = uses[k].of_table;
-    const Eigen::MatrixXd stress = *table * columns;
+    const Eigen::MatrixXd stress = wide_product(*table, columns);
     for (std::size_t k = 0; k < uses.size(); ++k) {
       result[uses[k].position].segment(3 * uses[k].first_station, table->rows()) += stress.col(static_cast<Eigen::Index>(k));
     }

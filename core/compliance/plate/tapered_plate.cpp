@@ -118,8 +118,16 @@ TaperedPlate::TaperedPlate(const PlateShape& shape, int along, int up)
   add_product(block(2, 0), I, at_foot, -edge.cross / determinant);
   add_product(block(2, 2), I, at_foot, edge.force / determinant);
 
-  factor_.compute(A);
-  assert(factor_.info() == Eigen::Success);
+  for (Index parity = 0; parity < 2; ++parity) {
+    Symmetry& symmetry = symmetries_[static_cast<std::size_t>(parity)];
+    for (Index field = 0; field < 3; ++field) {
+      for (Index i = (field == 1 ? 1 - parity : parity); i < along; i += 2) {
+        for (Index k = 0; k < up; ++k) symmetry.unknowns.push_back(field * n + i * up + k);
+      }
+    }
+    symmetry.factor.compute(A(symmetry.unknowns, symmetry.unknowns));
+    assert(symmetry.factor.info() == Eigen::Success);
+  }
 }
 
 Eigen::VectorXd TaperedPlate::functional(const PlateLoad& load) const {
@@ -136,9 +144,12 @@ MatrixXd TaperedPlate::influence(std::span<const PlateLoad> loads) const {
   const Index n = static_cast<Index>(along_.count()) * up_.count();
   MatrixXd phi = MatrixXd::Zero(3 * n, count);
   for (Index p = 0; p < count; ++p) phi.col(p).head(n) = functional(loads[static_cast<std::size_t>(p)]);
-  factor_.matrixL().solveInPlace(phi);
   MatrixXd K = MatrixXd::Zero(count, count);
-  K.selfadjointView<Eigen::Lower>().rankUpdate(phi.transpose());
+  for (const Symmetry& symmetry : symmetries_) {
+    MatrixXd of_symmetry = phi(symmetry.unknowns, Eigen::all);
+    symmetry.factor.matrixL().solveInPlace(of_symmetry);
+    K.selfadjointView<Eigen::Lower>().rankUpdate(of_symmetry.transpose());
+  }
   K.triangularView<Eigen::StrictlyUpper>() = K.transpose();
   return K;
 }

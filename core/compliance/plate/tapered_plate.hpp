@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <array>
 #include <functional>
 #include <span>
 #include <vector>
@@ -67,9 +68,15 @@ class TaperedPlate {
   /// Coefficients of w under the load's weights, along by up, row by row.
   Eigen::VectorXd functional(const PlateLoad& load) const;
 
+  /// The plate is the same from both of its ends: bending with w and b even along the edge, and a odd, knows nothing of the opposite.
+  struct Symmetry {
+    std::vector<Eigen::Index> unknowns;  ///< of w, a, b, each along by up
+    Eigen::LLT<Eigen::MatrixXd> factor;  ///< of A between these
+  };
+
   LegendreBasis along_, up_;
-  GaussRule along_rule_, up_rule_;      ///< exact for weights times polynomials
-  Eigen::LLT<Eigen::MatrixXd> factor_;  ///< of A; unknowns w, a, b, each along by up
+  GaussRule along_rule_, up_rule_;  ///< exact for weights times polynomials
+  std::array<Symmetry, 2> symmetries_;
 };
 
 }  // namespace flankwright

@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/root.hpp"
-#include "core/base/vector_registers.hpp"
+#include "core/base/wide_sum.hpp"
 
 namespace flankwright {
 
@@ -30,10 +30,9 @@ constexpr double contact_reach = 0.02;
 constexpr double same_factor = 1e-9;
 
 /// influence * forces, over the columns of the points that have a force: seldom half of them, and the matrix is what takes the time to read.
-FLANKWRIGHT_WIDE_REGISTERS void deflect(const Eigen::MatrixXd& influence, const Eigen::VectorXd& forces, Eigen::VectorXd& deflection) {
+void deflect(const Eigen::MatrixXd& influence, const Eigen::VectorXd& forces, Eigen::VectorXd& deflection) {
   const Eigen::Index n = forces.size();
   deflection.setZero(n);
-  double* const sum = deflection.data();
   std::array<const double*, 4> column{};
   std::array<double, 4> force{};
   std::size_t some = 0;
@@ -43,15 +42,9 @@ FLANKWRIGHT_WIDE_REGISTERS void deflect(const Eigen::MatrixXd& influence, const 
     force[some++] = forces[j];
     if (some < column.size()) continue;
     some = 0;
-    const double *c0 = column[0], *c1 = column[1], *c2 = column[2], *c3 = column[3];
-    const double f0 = force[0], f1 = force[1], f2 = force[2], f3 = force[3];
-    for (Eigen::Index i = 0; i < n; ++i) sum[i] += (c0[i] * f0 + c1[i] * f1) + (c2[i] * f2 + c3[i] * f3);
+    add_four_columns(column, force, n, deflection.data());
   }
-  for (std::size_t k = 0; k < some; ++k) {
-    const double* c = column[k];
-    const double f = force[k];
-    for (Eigen::Index i = 0; i < n; ++i) sum[i] += c[i] * f;
-  }
+  for (std::size_t k = 0; k < some; ++k) deflection += force[k] * Eigen::Map<const Eigen::VectorXd>(column[k], n);
 }
 
 void check(const LoadProblemView& problem, const Eigen::VectorXd& start) {

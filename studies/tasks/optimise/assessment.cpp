@@ -112,7 +112,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   if (study.optimise.assessment.rules) {
     if (progress) progress("trying rules of thumb", 0, 1, "");
     assessment.basis = rule_basis(problem);
-    assessment.rules = compare_designs(problem, rules_of_thumb(problem.task(), *assessment.basis));
+    assessment.rules = compare_designs_by_two_levels(problem, rules_of_thumb(problem.task(), *assessment.basis));
   }
   if (study.optimise.assessment.variants > 0.0) {
     assessment.variants = search_all_variants(problem, study.optimise.assessment.variants * design.evaluations, progress);

@@ -38,6 +38,7 @@ Json compared_json(const ComparedDesign& compared) {
           {"constraint_violation", compared.constraint_violation},
           {"feasible", compared.feasible()},
           {"failure", compared.failure},
+          {"intervals", compared.intervals},
           {"scenes", compared.scene_measures}};
 }
 

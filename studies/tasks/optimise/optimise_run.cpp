@@ -4,6 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/stopwatch.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
@@ -34,8 +35,11 @@ class OptimiseRun {
     DesignProblem problem(*results_.design_task);
     const DesignOptions choice{options, study.optimise.starts};
     announce_violations_of_start(problem);
-    TwoLevelDesign found = optimise_by_two_levels(problem, choice);
-    take_more_positions(problem, choice, found);
+    DesignOptions exact = choice;
+    exact.to_grind = false;
+    TwoLevelDesign found = optimise_by_two_levels(problem, exact);
+    take_more_positions(problem, exact, found);
+    choose_what_to_grind(problem, choice, found);
     keep_constraints_between_positions(problem, choice, found);
     if (seeks_extremes(study))
       search_between_positions(
@@ -51,9 +55,9 @@ class OptimiseRun {
         assess_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
     if (study.optimise.scatter.asked()) choose_over_draws(problem);
-    results_.before_errors = show(problem, "before", results_.design->before);
-    results_.after_errors = show(problem, "after", results_.design->after);
+    show(problem);
     if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, results_.design->exact->analysis, false), *results_.design->exact);
+    if (results_.assessment->relaxation) state_shown_excess();
     run_.rate();
     add_unmet_by_design(problem, results_);
     if (results_.scatter) add_unmet_over_draws();
@@ -132,6 +136,23 @@ class OptimiseRun {
     return gear_structures(fitted, results_.pair, run_.progress()).pair;
   }
 
+  /// The excess of the design as it is shown, with what lies between the positions, in place of that at the positions.
+  void state_shown_excess() {
+    Assessment assessment = *results_.assessment;
+    const double excess = std::max(assessment.relaxation->excess, excess_of(results_.design->after));
+    assessment.relaxation->excess = excess;
+    results_.assessment = std::make_shared<const Assessment>(std::move(assessment));
+    results_.design->message = message_of_excess(excess);
+  }
+
+  /// By how much a design exceeds the constraint that it exceeds most [-, relative to the limit]; below 0: it keeps all.
+  double excess_of(const DesignReport& report) const {
+    double excess = -INFINITY;
+    const std::vector<OutputConstraint>& constraints = results_.design_task->constraints;
+    for (std::size_t c = 0; c < constraints.size(); ++c) excess = std::max(excess, constraints[c].excess(report.constraint_values[c]));
+    return excess;
+  }
+
   /// A search at few positions may leave a peak between them, such as that of an edge which a hundredth of a micrometre of relief keeps from touching. It goes
   /// on at twice the positions where such a peak raises the objective by more than the accuracy that an analysis chooses its positions for.
   void take_more_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
@@ -139,11 +160,13 @@ class OptimiseRun {
     const Cycle& cycle = results_.study.cycle;
     for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && cycle.automatic_positions; ++turn) {
       const Stopwatch clock;
-      if (found.design.status == SolverStatus::Infeasible) return;  // the excess comes first
       const DesignReport& best = found.design.exact ? *found.design.exact : found.design.after;
       DesignReport shown = best;
       resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
-      if (!(shown.objective > (1.0 + AutomaticResolution{}.accuracy) * best.objective)) return;
+      const bool infeasible = found.design.status == SolverStatus::Infeasible;  // then it is the excess that was searched for
+      const double at_positions = infeasible ? 1.0 + excess_of(best) : best.objective,
+                   between = infeasible ? 1.0 + excess_of(shown) : shown.objective;
+      if (!(between > (1.0 + AutomaticResolution{}.accuracy) * at_positions)) return;
       const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
       run_.set_positions(2 * cycle.positions);
       results_.design_task = design_task();
@@ -201,16 +224,26 @@ class OptimiseRun {
     return run_.resolved(cases, with_errors);
   }
 
-  /// Adds a design's load cases, and puts what they show into its report.
-  DesignErrors show(const DesignProblem& problem, const std::string& name, DesignReport& report) {
-    std::vector<DesignScene> scenes;
-    for (int s = 0; s < problem.scenes(); ++s) scenes.push_back(scene_of(report.analysis, s));
+  /// Adds the load cases of the designs before and after, and puts what they show into the reports.
+  void show(const DesignProblem& problem) {
     const std::size_t first = results_.loaded.size();
-    run_.add_loaded(scenes, name, report.analysis.cycles);
+    add_load_cases(problem, "before", results_.design->before.analysis);
+    const std::size_t between = results_.loaded.size();
+    add_load_cases(problem, "after", results_.design->after.analysis);
     run_.hold_against_finer(first);
-    std::vector<ResolvedCycle> cycles;
-    for (std::size_t i = first; i < results_.loaded.size(); ++i) cycles.push_back(results_.loaded[i].resolved);
-    return resolve_report(problem, cycles, report);
+    const auto shown = [&](std::size_t begin, std::size_t end) {
+      std::vector<ResolvedCycle> cycles;
+      for (std::size_t i = begin; i < end; ++i) cycles.push_back(results_.loaded[i].resolved);
+      return cycles;
+    };
+    results_.before_errors = resolve_report(problem, shown(first, between), results_.design->before);
+    results_.after_errors = resolve_report(problem, shown(between, results_.loaded.size()), results_.design->after);
+  }
+
+  void add_load_cases(const DesignProblem& problem, const std::string& name, const DesignAnalysis& analysis) {
+    std::vector<DesignScene> scenes;
+    for (int s = 0; s < problem.scenes(); ++s) scenes.push_back(scene_of(analysis, s));
+    run_.add_loaded(scenes, name, analysis.cycles);
   }
 
   StudyRun& run_;
