@@ -210,9 +210,8 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
 
 void DesignProblem::add_root_stress(DesignAnalysis& analysis) const {
   if (root_stresses_ == RootStresses::WithLoads) return;
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(0, scenes(), [&](int s) { flankwright::add_root_stress(model(s), analysis.cycles[static_cast<std::size_t>(s)]); });
-  });
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for(0, scenes(), [&](int s) { flankwright::add_root_stress(model(s), analysis.cycles[static_cast<std::size_t>(s)]); }); });
 }
 
 DesignAnalysis DesignProblem::run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier) const {
