@@ -34,7 +34,7 @@ struct Choice {
   const char *word, *values;
 };
 constexpr std::array choices{Choice{"new", "analyse optimise sweep accuracy fit slurm"}, Choice{"completion", "bash zsh man"},
-                             Choice{"docs", "start tutorial guide how-to keys results gallery notation changes"},
+                             Choice{"docs", "start tutorial guide how-to keys results life accuracy gallery notation changes"},
                              Choice{"--helix-slope", "non-datum datum"}, Choice{"--rexs-version", "1.0 1.1 1.2 1.3 1.4 1.5 1.6 1.7 2.0"}};
 
 /// Roff: backslashes, hyphens that are to stay hyphens, and no line that starts as a request.

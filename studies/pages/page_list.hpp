@@ -17,6 +17,8 @@ inline constexpr std::array documentation_pages{
     NamedPage{"how-to", "studies/how-to.html", "noise, wide faces, test rigs, clusters, measured flanks: half a page each"},
     NamedPage{"keys", "studies/keys.html", "every key of a study file"},
     NamedPage{"results", "studies/results.html", "every file and quantity that a run writes"},
+    NamedPage{"life", "studies/life.html", "damage, film thickness and contact temperature over a load spectrum"},
+    NamedPage{"accuracy", "studies/tasks/accuracy/README.html", "what accuracy costs in time"},
     NamedPage{"gallery", "studies/examples/README.html", "what other studies show"},
     NamedPage{"notation", "core/notation.html", "symbols, words and signs"},
     NamedPage{"changes", "CHANGELOG.html", "what is new"},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -9,6 +10,7 @@
 
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
 #include "tests/core/gear/pair_cases.hpp"
+#include "core/base/error.hpp"
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -135,55 +137,23 @@ inline ContactSettings edge_settings(const ContactTask& task, int flank = 24, in
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
 /// narrow enough for the stress at the contact, "layers" thinner ones still at the ends, for unequal faces; "lines" resolves the ends of lines on helical
 /// teeth; "roots" and "fine roots" resolve the fillets.
-inline ContactMeshOptions contact_mesh_options(std::string_view name) {
-  if (name == "coarse") {
-    return {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8};
-  }
-  if (name == "ends") {
-    ContactMeshOptions options = contact_mesh_options("coarse");
-    options.end_layer = 1;
-    options.layer_growth = 1.7;
-    options.largest_layer = 10;
-    return options;
-  }
-  if (name == "fine") {
-    return {.flank = 16, .across = 5, .finest = 0.3, .into_depth = 2, .end_layer = 1, .layer_growth = 1.5, .largest_layer = 4, .body_rings = 3};
-  }
-  if (name == "layers") {
-    return {.flank = 10, .across = 3, .finest = 0.4, .end_layer = 0.2, .layer_growth = 1.8, .largest_layer = 3};
-  }
-  if (name == "lines") {
-    ContactMeshOptions options = contact_mesh_options("coarse");
-    options.flank = 16;
-    options.across = 4;
-    options.finest = 0.3;
-    options.into_depth = 2;
-    options.end_layer = 0.8;
-    options.layer_growth = 1.7;
-    options.largest_layer = 10;
-    return options;
-  }
-  if (name == "roots") {
-    ContactMeshOptions options = contact_mesh_options("coarse");
-    options.fillet = 6;
-    options.far_fillet = 2;
-    options.across = 4;
-    options.into_depth = 2.2;
-    options.gap_depth = 1.8;
-    return options;
-  }
-  if (name == "fine roots") {
-    ContactMeshOptions options = contact_mesh_options("roots");
-    options.fillet = 10;
-    options.across = 5;
-    options.into_depth = 2;
-    options.end_layer = 1.5;
-    options.layer_growth = 1.6;
-    options.largest_layer = 6;
-    return options;
-  }
-  if (name == "pressure") return {.flank = 24, .across = 5, .finest = 0.15};  // for the narrow pair
-  return {};
+/// @throws InvalidInput  for another name
+inline const ContactMeshOptions& contact_mesh_options(std::string_view name) {
+  static const std::map<std::string_view, ContactMeshOptions> meshes{
+      {"coarse", {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8}},
+      {"medium", {}},
+      {"fine", {.flank = 16, .across = 5, .finest = 0.3, .into_depth = 2, .end_layer = 1, .layer_growth = 1.5, .largest_layer = 4, .body_rings = 3}},
+      {"ends", {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 1, .layer_growth = 1.7, .largest_layer = 10}},
+      {"layers", {.flank = 10, .across = 3, .finest = 0.4, .end_layer = 0.2, .layer_growth = 1.8, .largest_layer = 3}},
+      {"lines", {.flank = 16, .fillet = 2, .across = 4, .finest = 0.3, .into_depth = 2, .end_layer = 0.8, .layer_growth = 1.7, .largest_layer = 10}},
+      {"roots", {.flank = 10, .fillet = 6, .far_fillet = 2, .across = 4, .gap_depth = 1.8, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8}},
+      {"fine roots", {.flank = 10, .fillet = 10, .far_fillet = 2, .across = 5, .into_depth = 2, .gap_depth = 1.8}},
+      {"pressure", {.flank = 24, .across = 5, .finest = 0.15}},  // for the narrow pair
+  };
+  const auto found = meshes.find(name);
+  if (found == meshes.end())
+    throw InvalidInput("mesh", std::string(name), "coarse, medium, fine, ends, layers, lines, roots, fine roots or pressure");
+  return found->second;
 }
 
 }  // namespace flankwright::contact_truth
