@@ -44,7 +44,7 @@ class ColumnFactor {
     return true;
   }
 
-  /// Givens' rotations make R triangular again [Golub & Van Loan, Matrix Computations, section 12.5].
+  /// Givens' rotations make R triangular again [Golub & Van Loan, Matrix Computations, 3rd edition 1996, section 12.5].
   void remove(std::size_t place) {
     const Eigen::Index count = std::ssize(in_), last = count - 1;
     for (auto k = static_cast<Eigen::Index>(place); k < last; ++k) {
