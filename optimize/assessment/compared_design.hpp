@@ -31,8 +31,8 @@ struct ComparedDesign {
 /// distribution does not converge is kept with its failure.
 std::vector<ComparedDesign> compare_designs(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
 
-/// The same by the coarse resolution of a search, see coarser(), where the task allows one. The best, or the nearest to keeping the constraints, is analysed anew
-/// at the task's own resolution until the best is one that has been. The others keep what the coarse resolution has.
+/// The same with the coarse resolution of a search, see coarser(), where the task allows one. The best design, or the one nearest to keeping the constraints,
+/// is analysed again at the task's own resolution. This is repeated until the best design is one that was. The others keep their coarse figures.
 std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
 
 /// The feasible design of least objective, the first of equals; null where none is feasible.

@@ -154,7 +154,8 @@ class OptimiseRun {
   }
 
   /// A search at few positions may leave a peak between them, such as that of an edge which a hundredth of a micrometre of relief keeps from touching. It goes
-  /// on at twice the positions where such a peak raises the objective by more than the accuracy that an analysis chooses its positions for.
+  /// on at twice the positions where such a peak raises the objective by more than the accuracy that an analysis chooses its positions for. Where no design keeps
+  /// the constraints, the excess takes the objective's place.
   void take_more_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
     constexpr int most_turns = 2;
     const Cycle& cycle = results_.study.cycle;
