@@ -4,7 +4,8 @@
 
 namespace flankwright {
 
-/// Where contact reaches a rounded tip edge the contact strip lies on flank and rounding, see StripContact.
+/// Where contact reaches a tip edge the contact strip lies on flank and rounding, or ends at the sharp edge, see StripContact. No pressure is known on a
+/// sharp one.
 class EdgeContactEffect final : public Effect {
  public:
   std::string_view name() const override { return "edge_contact"; }
@@ -12,12 +13,12 @@ class EdgeContactEffect final : public Effect {
   std::string_view needs() const override { return "hertzian_contact"; }
   EffectCall called_for(const EffectFacts& facts) const override {
     if (!facts.loaded) return {false, "no load"};
-    return {facts.rounded_tips, facts.rounded_tips ? "tips are rounded" : "tips are sharp: no pressure is known there"};
+    return {true, facts.rounded_tips ? "tips are rounded" : "tips are sharp: they carry load, but no pressure is known there"};
   }
   void act(MeshBuilder& builder) const override {
     for (std::size_t i = 0; i < builder.points.size(); ++i) {
       const TipEdge& edge = builder.points[i].tip_edge;
-      if (edge.radius > 0.0) builder.tip_edges[i] = RoundedEdge{edge.radius, edge.distance};
+      if (edge.radius >= 0.0) builder.tip_edges[i] = RoundedEdge{edge.radius, edge.distance};
     }
   }
 };

@@ -35,7 +35,7 @@ ParameterSlopes end_slopes(const MeshModel& model, const FlankCondition& conditi
   at.phase = phase;
   std::vector<Eigen::Index> edged;
   for (const LineEnd& end : ends) {
-    if (model.effects.has("edge_contact") && end.point.tip_edge.radius > 0.0) edged.push_back(std::ssize(at.points));
+    if (model.effects.has("edge_contact") && end.point.tip_edge.radius >= 0.0) edged.push_back(std::ssize(at.points));
     at.points.push_back(end.point);
   }
   const ConditionGap gaps(model.pair, model.placement.gap, condition);

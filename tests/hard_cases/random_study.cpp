@@ -84,8 +84,8 @@ class Drawing {
       out_.line("rack.dedendum", addendum + random_.uniform(0.15, 0.35));
       out_.line("rack.root_radius", random_.uniform(0.0, 0.2));
     }
-    // From sharp to nearly the whole tip, and beyond.
-    if (one_in(2)) out_.line("edges.tip_rounding", std::min(100.0, module_ * random_.log_uniform(1e-5, 0.5)));
+    // Sharp, and from nearly sharp to nearly the whole tip, and beyond.
+    if (one_in(2)) out_.line("edges.tip_rounding", one_in(4) ? 0.0 : std::min(100.0, module_ * random_.log_uniform(1e-5, 0.5)));
     out_.table(name + ".modification");
     // Up to 80 um at 3 mm of module and in proportion to it, within what is allowed.
     const double largest = std::min(1000.0, 27.0 * module_);

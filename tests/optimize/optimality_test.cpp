@@ -69,6 +69,7 @@ TEST_CASE("Where the conditions hold no direction descends, and on kinks they ho
   for (const auto& [misalignments, positions] : {std::pair{std::vector{0.0, 10.0}, 8}, {{0.0}, 16}, {{0.0, -16.0, 16.0}, 12}}) {
     DesignTask task = helical(misalignments, positions);
     task.objective = {term(Output::TePeakToPeak)};
+    task.effects = MeshEffects::all_but({"edge_contact"});  // a sharp edge at a line's end moves these optima off their kinks
     task.variables.back() = {"pinion.modification.parabolic_te", Member::Pinion, parameter_of("parabolic_te"), 0.0,
                              0.02 * units::arcsec / (units::deg * units::deg)};
     DesignProblem problem(task);

@@ -89,7 +89,7 @@ ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, doub
       relative_radius_(relative_radius),
       contact_modulus_(contact_modulus),
       edge_(edge) {
-  if (edge && !(edge->radius > 0.0)) throw InvalidInput("edge.radius", std::to_string(edge->radius), "more than 0 mm");
+  if (edge && !(edge->radius >= 0.0)) throw InvalidInput("edge.radius", std::to_string(edge->radius), "0 mm or more");
   if (edge && !std::isfinite(edge->distance)) throw InvalidInput("edge.distance", std::to_string(edge->distance), "a distance in mm");
   const auto distance = [](const char* field, double given) {
     if (std::isnan(given)) throw InvalidInput(field, "nan", "a distance in mm or infinity");

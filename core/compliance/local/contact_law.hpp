@@ -59,7 +59,7 @@ struct ContactSide {
 /// much larger than L and turns back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L
 /// exceeds h. The first slope is infinite, as -log(w). y is held fixed at 0 at the tip itself.
 ///
-/// Where the strip reaches a rounded edge, L in h' is the strip's half width l, w follows StripContact, and the approach is counted from first
+/// Where the strip reaches an edge, L in h' is the strip's half width l, w follows StripContact, and the approach is counted from first
 /// touch on the flank or its rounding:
 ///
 ///     c(w) = [the same sum with l] - w/(pi E') + rise,
@@ -71,7 +71,7 @@ class ContactLaw {
  public:
   /// @param relative_radius  R in the normal section [mm], > 0
   /// @param contact_modulus  E' [MPa], > 0, see contact_modulus()
-  /// @param edge             the rounded edge that is nearest; nothing: none
+  /// @param edge             the edge that is nearest; nothing: none
   /// @throws InvalidInput    naming the argument outside its range
   ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius, double contact_modulus,
              const std::optional<RoundedEdge>& edge = {});

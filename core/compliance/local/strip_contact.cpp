@@ -68,9 +68,20 @@ double cosine_of_kink(double x, double k) {
 StripContact::StripContact(const RoundedEdge& edge, double relative_radius, double contact_modulus, double line_load)
     : edge_(edge), radius_(relative_radius), modulus_(contact_modulus), load_(line_load) {
   const double rho = edge.radius, e = edge.distance, R = relative_radius;
-  assert(rho > 0.0 && R > 0.0 && contact_modulus > 0.0 && line_load > 0.0 && std::isfinite(e));
+  assert(rho >= 0.0 && R > 0.0 && contact_modulus > 0.0 && line_load > 0.0 && std::isfinite(e));
   const double k = R / (pi * rho), flank_width = std::sqrt(4.0 * line_load * R / (pi * contact_modulus));
   const double x = e / flank_width;
+  if (rho == 0.0 && x < 1.0) {
+    const double t = std::sqrt(x * x + 3.0) - x, q = punch_ = 0.5 * (t * t - 1.0), S = t * t, N = 1.0 - q;
+    phi_ = 0.0;
+    const double l = half_width_ = flank_width / t;
+    middle_ = -l * q;
+    growth_ = 0.5 * S / (S + N);
+    half_width_by_edge_ = 1.0 / (S + N);
+    rise_ = l * l * (q * q + 0.5 - (N >= 0.0 ? 0.0 : N * N)) / (2.0 * R);
+    rise_by_edge_ = -l * q / R + 2.0 * line_load / (pi * contact_modulus * l) * half_width_by_edge_ + (e >= 0.0 ? 0.0 : -e / R);
+    return;
+  }
   if (x >= 1.0 || x <= -std::sqrt(1.0 + k * pi)) {
     const bool inside = x >= 1.0;
     const double relative = inside ? R : R * rho / (R + rho);
@@ -104,6 +115,7 @@ StripContact::StripContact(const RoundedEdge& edge, double relative_radius, doub
 ///     f = sin psi/R + (phi sin psi + (cos psi - cos phi) Lambda)/(pi rho),   Lambda = log |sin((psi + phi)/2)/sin((psi - phi)/2)|.
 double StripContact::shape(double psi) const {
   const double hertz = std::sin(psi) / radius_;
+  if (punch_ > 0.0) return hertz + punch_ / (radius_ * std::tan(0.5 * psi));
   if (phi_ == 0.0) return hertz;
   if (phi_ == pi) return hertz + std::sin(psi) / edge_.radius;
   const double rise = 2.0 * std::sin(0.5 * (phi_ + psi)) * std::sin(0.5 * (phi_ - psi));  // cos psi - cos phi
@@ -173,7 +185,7 @@ StripContact::Peak StripContact::crest() const { return phi_ == 0.0 || phi_ == p
 
 StripContact::Peaks StripContact::peaks() const {
   if (phi_ == 0.0 || phi_ == pi) {
-    const double pressure = 2.0 * load_ / (pi * half_width_);
+    const double pressure = punch_ > 0.0 ? std::sqrt(load_ * modulus_ / (pi * radius_)) : 2.0 * load_ / (pi * half_width_);
     const Peak hertz{pressure, 0.5 * pressure / load_, 0.0};
     if (phi_ == 0.0) return {hertz, {}, {}};
     return {hertz, hertz, {load_, 1.0, 0.0}};

@@ -14,10 +14,10 @@ namespace flankwright {
 ///     h(s) = s^2/(2 R) + <s - e>^2/(2 rho),     <x> = max(x, 0).
 ///
 /// Far inside (e >> L) this is the line contact of the flanks, far outside (e << -L) that of the mate with the rounding, of relative radius
-/// rho R/(R + rho). In between the contact strip lies on both. rho -> 0 is the sharp edge, where pressure has no bound. The arc is taken as
+/// rho R/(R + rho). In between the contact strip lies on both. rho = 0 is the sharp edge, where pressure has no bound. The arc is taken as
 /// its parabola, which holds for a strip much narrower than rho.
 struct RoundedEdge {
-  double radius{not_given};    ///< rho, in the normal section [mm], > 0
+  double radius{not_given};    ///< rho, in the normal section [mm], >= 0; 0: sharp
   double distance{not_given};  ///< e, from the undisturbed contact to the start of the rounding [mm]; < 0 where contact is beyond it
 
   /// Least gap before load, that of the undisturbed flanks counted as 0 [mm]: 0 inside, e^2/(2 (R + rho)) outside. The sharp edge has e^2/(2 R).
@@ -36,6 +36,12 @@ struct RoundedEdge {
 ///     m/l = -k (sin phi - phi cos phi),   (L/l)^2 = 1 + k (phi - sin phi cos phi),   e/L = (m/l + cos phi) l/L.
 ///
 /// e/L falls from 1 to -sqrt(1 + k pi) as phi grows from 0 to pi. Beyond either the contact is Hertz's.
+///
+/// At a sharp edge phi is 0, and q = k phi^3/3 takes its place:
+///
+///     m/l = -q,   (L/l)^2 = 1 + 2 q,   e/L = (1 - q) l/L,   so that   L/l = sqrt((e/L)^2 + 3) - e/L.
+///
+/// The strip ends at the edge, where its pressure rises without bound as that of a punch: it has no peaks but the load that they carry is right.
 class StripContact {
  public:
   /// @param relative_radius  R [mm], > 0
@@ -64,7 +70,7 @@ class StripContact {
     double by_edge{0.0};  ///< dw_e/de [MPa], <= 0
   };
   /// The largest pressure of the strip, the largest on the rounding and the load there: both 0 where the strip does not reach it, from there without a
-  /// step.
+  /// step. At a sharp edge the largest pressure is that of the flank under the same load if it went on, and nothing is on the rounding.
   struct Peaks {
     Peak highest, on_edge;
     EdgeLoad edge_load;
@@ -88,6 +94,7 @@ class StripContact {
   double middle_, half_width_, growth_, rise_, half_width_by_edge_, rise_by_edge_;
   double phi_;                           ///< 0: on the flank alone, pi: on the rounding alone
   double steepness_{1.0}, offset_{1.0};  ///< B = -sqrt(S) (de/L)/dphi / sin(phi), and N = e/l
+  double punch_{0.0};                    ///< q, at a sharp edge
 };
 
 }  // namespace flankwright

@@ -21,6 +21,7 @@ struct FlankTouch {
   double on_rounding{0.0};         ///< how far beyond an edge its rounding touches, signed as x; 0: the flanks touch
   double rounded_off{0.0};         ///< part of the sharp edge's clearance that the rounding fills
   double by_lag{0.0};              ///< R L', see FlankTouchSearch
+  double by_lag_change{0.0};       ///< R L'', along the profile [-]
   PerGear<double> slid{0.0, 0.0};  ///< place on either flank less x, by a displacement of the wheel
   std::array<Side, 2> sides;
 };

@@ -117,11 +117,12 @@ using AlongProfile = ToothDeviation::AlongProfile;
 /// h with its derivatives by x.
 struct Deviation {
   AlongProfile h;
-  double by_lag{0.0};
+  double by_lag{0.0}, by_lag_change{0.0};
 
   /// What the flank with a lag L deviates by; the third derivative of L is left out of the curvature.
   void add_lag(const AlongProfile& lag, double relative_radius) {
     by_lag = relative_radius * lag.slope;
+    by_lag_change = relative_radius * lag.curvature;
     h.value += lag.value + 0.5 * by_lag * lag.slope;
     h.slope += lag.slope + by_lag * lag.curvature;
     h.curvature += lag.curvature + relative_radius * lag.curvature * lag.curvature;
@@ -132,7 +133,7 @@ struct Deviation {
 struct Sample {
   double x, relative_radius;
   AlongProfile h;
-  double by_lag;
+  double by_lag, by_lag_change;
 
   double position() const { return x; }
   double value() const { return -(0.5 * x * x / relative_radius + h.value); }
@@ -157,6 +158,7 @@ FlankTouch touch_beyond(const Section& section, const Sample& top) {
   touch.on_rounding = beyond * edge.rounding / (R + edge.rounding);
   touch.rounded_off = passed.rounded_off;
   touch.by_lag = top.by_lag;
+  touch.by_lag_change = top.by_lag_change;
   return touch;
 }
 
@@ -168,6 +170,7 @@ FlankTouch touch_near(const Section& section, const Sample& top, double step) {
   touch.gap = -(top.value() + 0.5 * step * top.slope());
   touch.along_by_slope = -1.0 / top.curvature();
   touch.by_lag = top.by_lag;
+  touch.by_lag_change = top.by_lag_change;
   return touch;
 }
 
@@ -188,7 +191,7 @@ FlankTouch touch_in(const Section& section, double relative_radius, const Deviat
   const double lower = section.lower().x, upper = section.upper().x;
   const auto evaluate = [&](double x, const Sample*) {
     const Deviation d = deviation_at(x);
-    return Sample{x, relative_radius, d.h, d.by_lag};
+    return Sample{x, relative_radius, d.h, d.by_lag, d.by_lag_change};
   };
   const auto points_beyond = [&](const Sample& s) { return s.slope() > 0.0 ? s.x >= upper : s.slope() < 0.0 && s.x <= lower; };
   Sample top = evaluate(section.start(), nullptr);
@@ -268,6 +271,9 @@ TouchDerivative::TouchDerivative(const GearPair& pair, const FlankCondition& con
       of_lag_(parameter == parameter_of("parabolic_te")),
       removed_(ground_derivative(pair, member, condition.modification[member], parameter, condition.other_flanks)) {}
 
+/// A lag's curvature along the profile is a central difference of its slopes over this [mm].
+constexpr double lag_step = 1e-3;
+
 /// dh/dp and d(dh/dx)/dp on one side of a touch, less what a lag adds.
 TouchDerivative::Slopes TouchDerivative::slopes(const ContactPoint& point, const FlankTouch::Side& side) const {
   const double radius = side.radius[member_], cos_base_helix = std::cos(pair_.base_helix_angle);
@@ -295,8 +301,18 @@ double TouchDerivative::of_gap(const ContactPoint& point, const FlankTouch& touc
 }
 
 double TouchDerivative::of_edge(const ContactPoint& point, const FlankTouch& touch) const {
-  const double towards_edge = towards_own_tip(point.tip_edge.gear);
-  return touch.along_by_slope == 0.0 ? 0.0 : -towards_edge * touch.along_by_slope * slopes(point, touch.sides[0]).slope;
+  if (touch.along_by_slope == 0.0) return 0.0;
+  const FlankTouch::Side& side = touch.sides[0];
+  double slope = slopes(point, side).slope;
+  if (of_lag_) {  // of h' = L' + R L' L''
+    FlankTouch::Side before = side, beyond = side;
+    const double along = lag_step * towards_own_tip(member_) * pair_[member_].base_radius / side.radius[member_];
+    before.radius[member_] -= along;
+    beyond.radius[member_] += along;
+    const double curvature = (slopes(point, beyond).slope - slopes(point, before).slope) / (2.0 * lag_step);
+    slope += slope * touch.by_lag_change + touch.by_lag * curvature;
+  }
+  return -towards_own_tip(point.tip_edge.gear) * touch.along_by_slope * slope;
 }
 
 }  // namespace flankwright

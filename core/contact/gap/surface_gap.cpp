@@ -118,7 +118,7 @@ std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& poi
     if (point.clearance > 0.0) point.clearance = aligned.total[static_cast<Eigen::Index>(i)];
     set_rolls(pair_, pair_.pinion.roll_length_at(nearest.pinion_radius), pair_.wheel.roll_length_at(nearest.wheel_radius), point);
     point.tip_edge = points[i].tip_edge;
-    if (const double moved = edge_moved_by(points[i], displaced[i]); moved != 0.0 && point.tip_edge.radius > 0.0) {
+    if (const double moved = edge_moved_by(points[i], displaced[i]); moved != 0.0 && point.tip_edge.radius >= 0.0) {
       TipEdge& edge = point.tip_edge;
       const double R = points[i].relative_radius;
       const double before = passed(edge, R).rounded;

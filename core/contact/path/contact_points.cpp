@@ -157,14 +157,13 @@ double to_tip_form(const Gear& gear, double roll) {
 TipEdge nearest_tip_edge(const GearPair& pair, double pinion_roll, double wheel_roll) {
   const TipEdge of_pinion{Member::Pinion, pair.pinion.tip_edge_radius, to_tip_form(pair.pinion, pinion_roll)};
   const TipEdge of_wheel{Member::Wheel, pair.wheel.tip_edge_radius, to_tip_form(pair.wheel, wheel_roll)};
-  if (of_wheel.radius == 0.0) return of_pinion;
-  return of_pinion.radius == 0.0 || of_wheel.distance < of_pinion.distance ? of_wheel : of_pinion;
+  return of_wheel.distance < of_pinion.distance ? of_wheel : of_pinion;
 }
 
 /// Outside A .. E an edge lies where two parabolas have the clearance of the sharp form circle.
 void set_passed_edge(const GearPair& pair, Member gear, ContactPoint& point) {
   const double rho = pair[gear].tip_edge_radius, radius = point.relative_radius;
-  if (rho == 0.0 || !(radius > 0.0)) return;
+  if (!(radius > 0.0)) return;
   const double beyond = PassedEdge::beyond(point.clearance, radius);
   point.tip_edge = {gear, rho, -beyond, PassedEdge::at(beyond, radius, rho).rounded_off};
   point.clearance -= point.tip_edge.rounded_off;

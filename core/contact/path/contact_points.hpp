@@ -42,10 +42,10 @@ struct LineInterval {
 std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase, double face_start,
                                          double face_end);
 
-/// The nearest rounded tip edge of a point, in the section across its contact line.
+/// The nearest tip edge of a point, in the section across its contact line.
 struct TipEdge {
   Member gear{Member::Pinion};
-  double radius{0.0};          ///< of the rounding [mm]; 0: no edge
+  double radius{not_given};    ///< of the rounding [mm]; 0: sharp, NaN: no edge
   double distance{not_given};  ///< along the flank to the start of the rounding, < 0 where contact is beyond it [mm]
   double rounded_off{0.0};     ///< part of the sharp form circle's clearance that the rounding fills [mm]
 };

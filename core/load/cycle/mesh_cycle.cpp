@@ -28,7 +28,7 @@ void fill_peaks(const LoadedLines& lines, const ParameterSlopes& slopes, const C
                 LoadedPosition& position) {
   const Eigen::VectorXd& w = position.load.line_load;
   const Eigen::MatrixXd& by_load = position.line_load_derivative;
-  const bool edges = std::ranges::any_of(lines.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
+  const bool edges = std::ranges::any_of(lines.laws, [](const ContactLaw& law) { return law.edge() && law.edge()->radius > 0.0; });
   position.contact_stress = Eigen::VectorXd::Zero(w.size());
   position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), by_load.cols());
   position.peak_load = w;

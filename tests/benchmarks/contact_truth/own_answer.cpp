@@ -10,14 +10,6 @@
 
 namespace flankwright::contact_truth {
 
-namespace {
-
-/// Sharp tips of CalculiX' gears press their edges into the mate. Ours know a pressure only on rounded ones; a fourth of this radius moves the transmission
-/// error by less than 0.2 %.
-constexpr double nearly_sharp = 0.002;  // m_n
-
-}  // namespace
-
 double OwnAnswer::share(int tooth) const {
   for (const ToothShare& s : load_sharing(model.positions.front(), loaded)) {
     if (s.tooth == tooth) return s.share;
@@ -86,11 +78,7 @@ double OwnAnswer::peak_stress(int tooth) const {
 
 OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure, const PairRootStress* root_stress) {
   constexpr int intervals = 12;  // of a line; another eight move the transmission error by less than 0.1 %
-  PairData pair = task.pair;
-  for (const Member m : {Member::Pinion, Member::Wheel}) {
-    if (pair[m].tip_rounding == 0) pair[m].tip_rounding = nearly_sharp * pair.normal_module;
-  }
-  OwnAnswer answer{make_mesh_model(make_gear_pair(pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}},
+  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}},
                                    task.plane_strain ? MeshEffects::all_but({"free_ends"}) : MeshEffects{},
                                    MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), structure, root_stress),
                    {}};

@@ -39,7 +39,7 @@ ToothSurface::Finest ToothSurface::finest(int tooth, double z) const {
   const double pinion_roll = path_.roll_at(path_.phase_at(gear_.line_phase + pair_of(tooth), z));
   const double roll = std::max(0.0, pinion() ? pinion_roll : gear_.pair->path_length - pinion_roll);
   const auto contact = contact_point(*gear_.pair, path_, gear_.line_phase, pair_of(tooth), z, true);
-  if (options_.edge_finest == 0 || !contact || contact->tip_edge.radius == 0 || contact->tip_edge.distance > options_.edge_reach) {
+  if (options_.edge_finest == 0 || !contact || !(contact->tip_edge.radius > 0) || contact->tip_edge.distance > options_.edge_reach) {
     return {involute_arc(roll), options_.finest};
   }
   if (contact->tip_edge.gear == gear_.member) return {involute_arc(tip_->flank_end()), options_.edge_finest};

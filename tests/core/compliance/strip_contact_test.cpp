@@ -135,7 +135,7 @@ TEST_CASE("A strip's pressure carries its load, on the rounding its part of it, 
 }
 
 TEST_CASE("Slopes of a strip by load and edge are those of differences", "[core][compliance][edge]") {
-  const double x = GENERATE(0.97, 0.6, 0.0, -0.8, -3.0), rho = GENERATE(0.05, 0.4);
+  const double x = GENERATE(0.97, 0.6, 0.0, -0.8, -3.0), rho = GENERATE(0.0, 0.05, 0.4);
   const double load = 100.0, L = hertz_width(load), e = x * L;
   const auto at = [&](double w, double distance) { return StripContact({rho, distance}, flank_radius, modulus, w); };
   const StripContact strip = at(load, e);
@@ -159,7 +159,7 @@ TEST_CASE("Slopes of a strip by load and edge are those of differences", "[core]
 
 TEST_CASE("A contact law near an edge rises with the load, by its slope", "[core][compliance][edge]") {
   const double distance = GENERATE(0.2, 0.05, 0.0, -0.05, -0.3);
-  const RoundedEdge edge{0.15, distance};
+  const RoundedEdge edge{GENERATE(0.15, 0.0), distance};
   const ContactLaw law = law_with(edge);
   double last = 0.0, last_pressure = 0.0;
   for (double w = 0.01; w < 2'000.0; w *= 1.3) {
@@ -214,4 +214,29 @@ TEST_CASE("As a rounding vanishes the load goes to that of the sharp edge, monot
     last = load;
   }
   CHECK(last_step < 0.01 * last);
+  const double sharp = load_at(0.0, approach);
+  CHECK(sharp < last);
+  CHECK(last - sharp < last_step);  // each step is less than half of the one before
+}
+
+TEST_CASE("A strip at a sharp edge is the limit of small roundings and carries its load", "[core][compliance][edge]") {
+  const double x = GENERATE(0.95, 0.4, 0.0, -0.7, -4.0);
+  const double load = 60.0, L = hertz_width(load), e = x * L;
+  const StripContact sharp({0.0, e}, flank_radius, modulus, load), nearly({1e-6, e}, flank_radius, modulus, load);
+  constexpr double limit = 1e-3;  // of phi^2, phi^3 = 3 q pi rho/R
+  CAPTURE(x);
+  CHECK(sharp.half_width() == Approx(nearly.half_width()).epsilon(limit));
+  CHECK(sharp.growth() == Approx(nearly.growth()).epsilon(limit));
+  CHECK(sharp.rise() == Approx(nearly.rise()).epsilon(limit));
+  CHECK(sharp.half_width_by_edge() == Approx(nearly.half_width_by_edge()).epsilon(limit));
+  CHECK(sharp.rise_by_edge() == Approx(nearly.rise_by_edge()).margin(limit));
+  double carried = 0.0;
+  constexpr int n = 100'000;
+  for (int i = 0; i < n; ++i) {  // s = e - t^2 takes the root out of the pressure at the edge
+    const double width = std::sqrt(2.0 * sharp.half_width()) / n, t = (i + 0.5) * width;
+    carried += sharp.pressure(e - t * t) * 2.0 * t * width;
+  }
+  CHECK(carried == Approx(load).epsilon(1e-5));  // midpoint rule with a root at the other end
+  CHECK(sharp.pressure(e + 1e-9) == 0.0);
+  CHECK(sharp.peaks().edge_load.load == 0.0);
 }

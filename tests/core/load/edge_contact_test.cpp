@@ -7,6 +7,7 @@
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
 #include "core/rating/edge_contact_start.hpp"
+#include "core/rating/load_sharing.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
@@ -262,6 +263,29 @@ TEST_CASE("Transmission error runs on as contact wanders over an edge", "[core][
   const auto change = [&](double step) { return std::abs(error(end + step) - error(end - step)); };
   CHECK(change(1e-4) < 0.2 * change(1e-3));
   CHECK(change(1e-5) < 0.2 * change(1e-4));
+}
+
+TEST_CASE("As a tip rounding vanishes the load of the pair on the edge goes to that of the sharp edge, monotonically", "[core][load][edge]") {
+  const PathOfContact path(rounded_pair(0, 0));
+  const double beyond = path.path_end() - std::floor(path.path_end()) + 0.01;  // one pair has just gone beyond E
+  const auto share = [&](double rounding) {
+    const MeshModel model = mesh_cases::model(rounded_pair(0, rounding), {{QuadratureRule::Graded, 4}, {beyond}});
+    const LoadedPosition position = analyse_cycle(model, {}, torque).positions[0];
+    double least = 1.0;
+    for (const ToothShare& tooth : load_sharing(model.positions[0], position)) {
+      if (tooth.share > 0.0) least = std::min(least, tooth.share);
+    }
+    return least;
+  };
+  double last = share(0.064), last_step = INFINITY;
+  for (const double rounding : {0.016, 0.004, 0.001, 0.0}) {
+    const double now = share(rounding);
+    CAPTURE(rounding, last, now);
+    CHECK(now > last);  // more and more of the tooth stands in the way
+    CHECK(now - last < last_step);
+    last_step = now - last;
+    last = now;
+  }
 }
 
 TEST_CASE("A pair pushed apart has the edge contact of the pair that is made for this centre distance", "[core][load][edge][independent]") {
