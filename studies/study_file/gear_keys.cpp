@@ -80,7 +80,7 @@ std::vector<SchemaKey> geometry_rows() {
        .fallback = "(from rack and profile shift)", .meaning = "d_a",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_diameter = v.number; }},
       {.path = "gear.edges.tip_rounding", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = usual_edge,
-       .meaning = "radius of the edge between flank and tip, across the edge; 0 is sharp, and contact on it has no known stress",
+       .meaning = "radius of the edge between flank and tip, across the edge; 0 is sharp: it carries load, but its pressure has no bound and is left out of the stress",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_rounding = v.number; }},
       {.path = "gear.edges.tip_chamfer.amount", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = "0",
        .meaning = "h_K: how far below the tip circle the chamfer begins, radially; instead of tip_rounding",

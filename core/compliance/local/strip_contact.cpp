@@ -43,11 +43,17 @@ struct Strip {
 };
 
 /// cos(phi) at which e/L is x, -sqrt(1 + k pi) < x < 1: Newton's steps inside a bracket. As a function of cos(phi) e/L rises with a slope
-/// that has neither zero nor pole, and a curvature of about (1 + k)/sin(phi). The start is on the lines through the values at phi = 0, pi/2 and pi.
+/// that has neither zero nor pole, and a curvature of about (1 + k)/sin(phi). The start is the angle of the sharp edge, see StripContact, with
+/// k (phi^3/3 - phi^5/30) for its q; where that is no small angle, it is on the lines through the values at phi = 0, pi/2 and pi.
 double cosine_of_kink(double x, double k) {
-  double low = -1.0, high = 1.0;
-  const double middle = -k / std::sqrt(1.0 + 0.5 * pi * k), last = -std::sqrt(1.0 + pi * k);
-  double u = 0.99 * (x > middle ? (x - middle) / (1.0 - middle) : (x - middle) / (middle - last));
+  double low = -1.0, high = 1.0, u = 0.0;
+  const double t = std::sqrt(x * x + 3.0) - x, narrow = std::cbrt(1.5 * (t * t - 1.0) / k);
+  if (narrow < 1.5) {
+    u = std::cos(narrow * (1.0 + narrow * narrow / 30.0));
+  } else {
+    const double middle = -k / std::sqrt(1.0 + 0.5 * pi * k), last = -std::sqrt(1.0 + pi * k);
+    u = 0.99 * (x > middle ? (x - middle) / (1.0 - middle) : (x - middle) / (middle - last));
+  }
   // Each step at least halves the bracket or is Newton's; double precision needs no more.
   for (int step = 0; step < 100; ++step) {
     const Strip strip(u, k);
@@ -139,9 +145,9 @@ double StripContact::highest_on_edge() const {
     (slope > 0.0 ? low : high) = psi;
     double next = phi_ - rest * std::exp(slope / (curvature * rest));
     if (next >= last * phi_ && slope > 0.0) return last * phi_;
+    // The error that is left is the square of the step's. Before the bracket has its say: round-off may be on the wrong side of the root.
+    if (std::abs(next - psi) <= 1e-7 * rest) return next;
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    // The error that is left is the square of the step's.
-    if (std::abs(next - psi) <= 1e-8 * rest) return next;
     psi = next;
   }
   return psi;

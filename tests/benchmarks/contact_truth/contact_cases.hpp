@@ -50,6 +50,13 @@ inline ContactTask edge_task(double rounding, Member edge, double outside, doubl
   return task;
 }
 
+/// A helical pair of the same teeth, b = 5 mm, whose line of contact leaves the flank over the pinion's tip edge at mid face.
+inline ContactTask helical_edge_task(double rounding, double approach_um) {
+  PairData data = pair_cases::pair_data(27, 43, 20, 2, 5);
+  data.pinion.tip_rounding = data.wheel.tip_rounding = rounding * data.normal_module;
+  return contact_task(data, PathOfContact(make_gear_pair(data)).path_end(), approach_um);
+}
+
 /// The spur pair with a face of one module, aligned, and a wheel that is wider.
 inline ContactTask uneven_task(double wheel_face_width) {
   PairData data = pair_data(0, 10);
@@ -97,6 +104,7 @@ inline std::vector<ContactCase> contact_cases() {
                                  {"narrow spur, one pair", contact_task(pair_data(0, 10), 1.15, 45)},
                                  {"faces of 10 and 10.5 mm", uneven_task(10.5)}};
   for (ContactCase& c : edge_cases()) cases.push_back(std::move(c));
+  cases.push_back({"helical edge, 0.1 m_n", helical_edge_task(0.1, 4)});
   return cases;
 }
 
@@ -122,16 +130,31 @@ inline std::vector<CycleCase> cycle_cases() {
   return {{"cycle, spur", pair_data(0, 40), 2357e3, 12}, {"cycle, helical", pair_data(30, 40), 3177e3, 8}};
 }
 
-/// A mesh for edge_task(): elements around the edge of a third of the half width that 20 N/mm press into the rounding, times the growth of a few elements.
+/// A mesh for edge_task() and helical_edge_task(): elements around the edge of a third of the half width that 20 N/mm press into the rounding, times the growth of a few
+/// elements.
 /// @param flank, across  elements, ContactMeshOptions
-inline ContactSettings edge_settings(const ContactTask& task, int flank = 24, int across = 8) {
+/// @param middle_layer   the same, of a helical pair
+inline ContactSettings edge_settings(const ContactTask& task, int flank, int across, double middle_layer) {
   const Material& m = task.material;
   ContactSettings settings;
   settings.mesh = {.flank = flank, .across = across, .finest = 0.04, .into_depth = 2.2, .end_layer = 10, .largest_layer = 10};
   settings.mesh.edge_finest = 0.3 * hertz_line(20, task.pair.pinion.tip_rounding, contact_modulus(m, m)).half_width;
   settings.mesh.edge_reach = settings.mesh.finest;
-  settings.penalty = 1e9;  // 1500 MPa sink in by 2 nm, where a rounding is flattened by 50 to 200
+  settings.penalty = 1e9;    // 1500 MPa sink in by 2 nm, where a rounding is flattened by 50 to 200
+  if (!task.plane_strain) {  // thin layers where the line of contact meets the edge
+    settings.mesh.middle_layer = middle_layer;
+    settings.mesh.layer_growth = 1.5;
+    settings.mesh.largest_layer = 2;
+  }
   return settings;
+}
+
+/// Helical pairs have far more layers, and therefore fewer elements in each.
+inline ContactSettings edge_settings(const ContactTask& task) {
+  return task.plane_strain ? edge_settings(task, 24, 8, 0) : edge_settings(task, 16, 6, 0.25);
+}
+inline ContactSettings fine_edge_settings(const ContactTask& task) {
+  return task.plane_strain ? edge_settings(task, 36, 10, 0) : edge_settings(task, 20, 6, 0.15);
 }
 
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements

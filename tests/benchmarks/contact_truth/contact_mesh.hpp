@@ -24,6 +24,7 @@ struct ContactMeshOptions {
   double end_layer{1.5};      ///< axial size at the ends of the common face, also beyond them on a wider gear
   double layer_growth{1.6};   ///< of neighbouring layers
   double largest_layer{6.0};  ///< axial size at mid face
+  double middle_layer{0};     ///< axial size at mid face where layers grow from there towards both ends; 0: they grow from the ends
   int body_rings{2};          ///< from below the teeth to the bore; of a gear on a web in rim and hub, four times as many in the web
   int form_teeth{1};          ///< teeth with their form on either side of those that are loaded
   double plain_element{20};   ///< widest element around the axis where nothing meshes [deg]

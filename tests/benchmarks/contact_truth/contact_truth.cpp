@@ -98,9 +98,16 @@ void compare_edges(const ContactCase& c, const ContactSettings& settings, const 
               static_cast<long>(outside.unknowns), outside.processor_seconds, c.task.approach / units::um,
               own.loaded.load.transmission_error / c.task.approach);
   std::printf("| pair | share: CalculiX, ours | peak MPa: CalculiX, ours |\n|---|---|---|\n");
-  for (const LayerLoad& l : outside.layers) {
-    std::printf("| %d | %.4f, %.4f | %.0f, %.0f |\n", l.tooth, outside.share(l.tooth), own.share(l.tooth), l.peak_compression,
-                own.peak_stress(l.tooth));
+  for (int tooth = outside.layers.front().tooth; tooth <= outside.layers.back().tooth; ++tooth) {
+    std::printf("| %d | %.4f, %.4f | %.0f, %.0f |\n", tooth, outside.share(tooth), own.share(tooth), outside.peak_compression(tooth),
+                own.peak_stress(tooth));
+  }
+  if (!c.task.plane_strain) {
+    std::printf("\ntooth pair, z, force per mm of face N/mm: CalculiX, ours; peak MPa: CalculiX\n");
+    for (const LayerLoad& l : outside.layers) {
+      std::printf("  %2d %8.3f .. %8.3f %9.2f %9.2f %9.0f\n", l.tooth, l.begin, l.end, l.force / (l.end - l.begin),
+                  own.mean_face_load(l.tooth, l.begin, l.end), l.peak_compression);
+    }
   }
   std::fflush(stdout);
 }
@@ -188,7 +195,7 @@ int main(int argc, char** argv) {
     return run_cases(argc, argv, "", root_cases(), [&](const ContactCase& c, const std::string& folder) { compare_roots(c, settings, folder); });
   const int exit_code = run_cases(argc, argv, " [FIRST_POSITION]", contact_cases(), [&](const ContactCase& c, const std::string& folder) {
     if (c.task.pair.pinion.tip_rounding > 0)
-      compare_edges(c, mesh == "fine" ? edge_settings(c.task, 36, 10) : edge_settings(c.task), folder);
+      compare_edges(c, mesh == "fine" ? fine_edge_settings(c.task) : edge_settings(c.task), folder);
     else
       compare(c, settings, folder);
   });

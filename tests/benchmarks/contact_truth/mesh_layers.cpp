@@ -24,6 +24,14 @@ std::vector<double> layer_ends(double length, const ContactMeshOptions& options,
 /// Those of the common face, and beyond it layers that grow outwards.
 std::vector<double> planes_of_face(double own_width, double common_width, const ContactMeshOptions& options, bool half) {
   std::vector<double> planes;
+  if (options.middle_layer > 0 && !half) {
+    ContactMeshOptions outwards = options;
+    outwards.end_layer = options.middle_layer;
+    const std::vector<double> ends = layer_ends(common_width / 2, outwards, true);
+    for (std::size_t i = ends.size(); i-- > 1;) planes.push_back(-ends[i]);
+    planes.insert(planes.end(), ends.begin(), ends.end());
+    return planes;
+  }
   for (const double end : layer_ends(half ? common_width / 2 : common_width, options, half)) planes.push_back(end - common_width / 2);
   const double overhang = (own_width - common_width) / 2;
   if (overhang <= 0) return planes;
