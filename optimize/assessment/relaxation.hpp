@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "optimize/assessment/local_model.hpp"
+#include "optimize/design/local_model.hpp"
 
 namespace flankwright {
 

@@ -306,11 +306,16 @@ double DesignProblem::constraint_value(const DesignAnalysis& analysis, const Out
 }
 
 double DesignProblem::violation(const DesignAnalysis& analysis) const {
-  double worst = 0.0;
+  double worst = violation(analysis.modification);
   for (const OutputConstraint& c : task_.constraints) worst = std::max(worst, c.excess(constraint_value(analysis, c)));
   for (const ObjectiveBound& bound : task_.objective_bounds) worst = std::max(worst, value(bound.objective, analysis) / bound.limit - 1.0);
+  return worst;
+}
+
+double DesignProblem::violation(const PerGear<Modification>& modification) const {
+  double worst = 0.0;
   for (const ModificationConstraint& c : task_.modification_constraints) {
-    const double sum = c.value(analysis.modification);
+    const double sum = c.value(modification);
     worst = std::max(worst, std::max(sum - c.maximum, c.minimum - sum) / modification_scale(c));
   }
   return worst;

@@ -112,6 +112,8 @@ class DesignProblem {
   double constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const;
   /// Largest excess over all bounds, relative to each (modification constraints: to modification_scale()); 0 where all are kept [-].
   double violation(const DesignAnalysis& analysis) const;
+  /// Its part by the constraints on modifications, which needs no analysis.
+  double violation(const PerGear<Modification>& modification) const;
   /// Scale of an excess of a modification constraint: the range that the variables give its sum [mm].
   double modification_scale(const ModificationConstraint& constraint) const;
   /// d(constraint's sum)/dx, scaled variables.

@@ -12,6 +12,7 @@
 
 #include "optimize/design/deciding_positions.hpp"
 #include "optimize/design/design_log.hpp"
+#include "optimize/design/local_model.hpp"
 
 namespace flankwright {
 
@@ -38,6 +39,15 @@ class StepSearch {
     }
     first_.resize(static_cast<std::size_t>(problem.scenes()));
     std::iota(first_.begin(), first_.end(), 0);
+    if (most_ > 1 && std::isfinite(exact_objective_) && problem.task().scalarisation.empty()) {
+      std::vector<AssessedParameter> parameters;
+      for (const int i : stepped_) {
+        const DesignVariable& v = variable(i);
+        parameters.push_back(parameter_of_variable(problem.task(), i, v.step * v.outside_factor()));
+      }
+      model_.emplace(problem, problem.modification(x), parameters);
+      x_ = corners().front();
+    }
     take(judge(x_));
   }
 
@@ -78,7 +88,35 @@ class StepSearch {
     design.objective = usable ? problem_.objective(analysis) : INFINITY;
     design.constraint_violation = usable ? problem_.violation(analysis) : INFINITY;
     design.analyses = analyses_;
+    if (model_ && usable) {
+      const Predicted predicted = predict(x);
+      objective_margin_ = std::max(objective_margin_, predicted.objective - design.objective);
+      violation_margin_ = std::max(violation_margin_, predicted.violation - design.constraint_violation);
+    }
     return design;
+  }
+
+  /// By the model at the exact design.
+  struct Predicted {
+    double violation{0.0}, objective{0.0};
+    auto operator<=>(const Predicted&) const = default;
+  };
+  Predicted predict(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd steps(std::ssize(stepped_));
+    for (std::size_t k = 0; k < stepped_.size(); ++k) {
+      const int i = stepped_[k];
+      steps[static_cast<Eigen::Index>(k)] = (problem_.unscaled(x, i) - problem_.unscaled(exact_, i)) / variable(i).step;
+    }
+    const double violation = std::max(model_->violation(steps), problem_.violation(problem_.modification(x)));
+    return {violation > DesignLog::tolerance ? violation : 0.0, model_->objective(steps)};
+  }
+  /// Whether the model leaves hope that a design is better than the best.
+  bool is_promising(const Eigen::VectorXd& x) const {
+    if (!model_) return true;
+    const Predicted predicted = predict(x);
+    const double violation = std::max(dear_rounding, violation_margin_);
+    if (!is_feasible(best_)) return predicted.violation < best_.constraint_violation + violation;
+    return predicted.violation <= violation && predicted.objective < best_.objective + std::max(dear_rounding * exact_objective_, objective_margin_);
   }
 
   static bool is_usable(const DesignAnalysis& analysis) {
@@ -133,21 +171,28 @@ class StepSearch {
     return feasible ? design.objective < best_.objective : design.constraint_violation < best_.constraint_violation;
   }
 
-  /// Takes the first of these designs that is better than the best, and tells which.
-  std::optional<std::size_t> first_better(std::span<const Eigen::VectorXd> designs) {
+  /// Takes the first of these designs that is promising and better than the best, and tells which.
+  std::optional<std::size_t> first_better(const std::vector<Eigen::VectorXd>& all) {
+    std::vector<Eigen::VectorXd> designs;
+    std::vector<std::size_t> number;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      if (all[k] == best_.x || !is_promising(all[k])) continue;
+      designs.push_back(all[k]);
+      number.push_back(k);
+    }
+    const std::optional<std::size_t> better = first_better_of(designs);
+    return better ? std::optional(number[*better]) : std::nullopt;
+  }
+  std::optional<std::size_t> first_better_of(std::span<const Eigen::VectorXd> designs) {
     std::span<const Eigen::VectorXd> some;
     for (std::size_t begin = 0; begin < designs.size() && analyses_ < most_; begin += some.size()) {
       some = designs.subspan(begin, std::min({tried_together, static_cast<std::size_t>(most_ - analyses_), designs.size() - begin}));
       std::vector<std::optional<int>> failed(some.size());
       if (scenes_rule_out()) {
-        tbb::this_task_arena::isolate([&] {
-          tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t k) {
-            if (some[k] != best_.x) failed[k] = failed_scene(some[k]);
-          });
-        });
+        tbb::this_task_arena::isolate(
+            [&] { tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t k) { failed[k] = failed_scene(some[k]); }); });
       }
       for (std::size_t k = 0; k < some.size(); ++k) {
-        if (some[k] == best_.x) continue;
         if (failed[k]) {
           best_.analyses = ++analyses_;
           const auto scene = std::ranges::find(first_, *failed[k]);
@@ -166,22 +211,34 @@ class StepSearch {
 
   bool is_dear() const { return !is_feasible(best_) || best_.objective > (1.0 + dear_rounding) * exact_objective_; }
 
-  /// The values on either side of the exact ones, in all combinations of the variables that lie farthest from a step.
-  void try_corners() {
-    constexpr std::size_t most_variables = 6;  // 64 corners
+  /// The values on either side of the exact ones, in all combinations of the variables that lie farthest from a step; as many as make the
+  /// most_corners, with a model the most promising first.
+  std::vector<Eigen::VectorXd> corners() const {
+    constexpr std::size_t most_corners = 64, most_variables = 6, most_by_model = 12;
     const auto steps = [&](int i) { return problem_.unscaled(exact_, i) / variable(i).step; };
     std::vector<int> between = stepped_;
     std::ranges::stable_sort(between, std::ranges::greater{}, [&](int i) { return std::abs(steps(i) - std::round(steps(i))); });
-    between.resize(std::min(between.size(), most_variables));
-    std::vector<Eigen::VectorXd> corners;
+    between.resize(std::min(between.size(), model_ ? most_by_model : most_variables));
+    std::vector<std::pair<Predicted, Eigen::VectorXd>> found;
     for (unsigned corner = 0; corner < 1U << between.size(); ++corner) {
-      corners.push_back(x_);
-      for (std::size_t k = 0; k < between.size(); ++k) place(corners.back(), between[k], std::floor(steps(between[k])) + (corner >> k & 1U));
+      Eigen::VectorXd x = x_;
+      for (std::size_t k = 0; k < between.size(); ++k) place(x, between[k], std::floor(steps(between[k])) + (corner >> k & 1U));
+      const Predicted predicted = model_ ? predict(x) : Predicted{};
+      found.emplace_back(predicted, std::move(x));
     }
-    for (std::size_t next = 0; next < corners.size();) {
-      const std::optional<std::size_t> better = first_better(std::span(corners).subspan(next));
+    std::ranges::stable_sort(found, {}, [](const auto& corner) { return corner.first; });
+    found.resize(std::min(found.size(), most_corners));
+    std::vector<Eigen::VectorXd> designs;
+    for (auto& [predicted, x] : found) designs.push_back(std::move(x));
+    return designs;
+  }
+
+  void try_corners() {
+    std::vector<Eigen::VectorXd> designs = corners();
+    while (!designs.empty()) {
+      const std::optional<std::size_t> better = first_better(designs);
       if (!better) return;
-      next += *better + 1;
+      designs.erase(designs.begin(), designs.begin() + static_cast<std::ptrdiff_t>(*better) + 1);
     }
   }
 
@@ -226,6 +283,9 @@ class StepSearch {
   RoundedDesign best_;
   std::vector<LoadedCycle> best_cycles_;            ///< of it, one per scene
   std::vector<std::vector<std::size_t>> deciding_;  ///< its deciding positions in each scene
+  std::optional<LocalModel> model_;                 ///< about the exact design, by its variables' steps
+  /// By how much the model was above a design that was analysed, at most.
+  double objective_margin_{0.0}, violation_margin_{0.0};
 };
 
 }  // namespace

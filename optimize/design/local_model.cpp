@@ -1,4 +1,4 @@
-#include "optimize/assessment/local_model.hpp"
+#include "optimize/design/local_model.hpp"
 
 #include <tbb/parallel_for.h>
 
@@ -10,11 +10,6 @@ namespace flankwright {
 namespace {
 
 constexpr std::size_t most_candidates = 400;  // of one peak
-
-AssessedParameter of_variable(const DesignVariable& v, int index) {
-  const double step = assessment_step(v.unit());
-  return {v.path, step, v.unit(), GearParameter{v.member, v.parameter}, step / v.outside_factor(), index};
-}
 
 AssessedParameter of_error(Member member, const char* name, ModificationParameter removed) {
   return {name_of(member) + std::string(".error.") + name, 1.0, "um", GearParameter{member, removed}, -units::um};
@@ -63,11 +58,18 @@ const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
 
 }  // namespace
 
+AssessedParameter parameter_of_variable(const DesignTask& task, int variable, double step) {
+  const DesignVariable& v = task.variables[static_cast<std::size_t>(variable)];
+  return {v.path, step, v.unit(), GearParameter{v.member, v.parameter}, step / v.outside_factor(), variable};
+}
+
 double assessment_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
 
 std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
   std::vector<AssessedParameter> parameters;
-  for (std::size_t i = 0; i < task.variables.size(); ++i) parameters.push_back(of_variable(task.variables[i], static_cast<int>(i)));
+  for (int i = 0; i < std::ssize(task.variables); ++i) {
+    parameters.push_back(parameter_of_variable(task, i, assessment_step(task.variables[static_cast<std::size_t>(i)].unit())));
+  }
   const auto misalignment = [&](const char* name, double step, const char* unit, MisalignmentParameter parameter, double inside) {
     parameters.push_back({std::string("misalignment.") + name, step, unit, parameter, inside});
   };
@@ -167,6 +169,14 @@ double LocalModel::objective(const Eigen::VectorXd& steps) const {
   std::vector<double> weights;
   for (const DesignScene& scene : task_.scenes) weights.push_back(scene.weight);
   return aggregate(task_.over, scene_measures(steps), weights);
+}
+
+double LocalModel::violation(const Eigen::VectorXd& steps) const {
+  double worst = 0.0;
+  for (const std::vector<Peak>& of_output : constraints_) {
+    for (const Peak& peak : of_output) worst = std::max(worst, peak.at(steps));
+  }
+  return worst;
 }
 
 }  // namespace flankwright

@@ -19,6 +19,9 @@ struct AssessedParameter {
   int variable{-1};    ///< index of the design variable it is; -1: a tolerance
 };
 
+/// A variable of the task that moves in steps of this size in its outside unit.
+AssessedParameter parameter_of_variable(const DesignTask& task, int variable, double step);
+
 /// One step of a modification in its outside unit, see assessed_parameters(). @param unit  DesignVariable::unit()
 double assessment_step(const std::string& unit);
 
@@ -69,6 +72,8 @@ class LocalModel {
   std::vector<double> scene_measures(const Eigen::VectorXd& steps) const;
   /// The scenes' measures, aggregated as in the task, outside units.
   double objective(const Eigen::VectorXd& steps) const;
+  /// Largest excess of the bounded outputs over their limits [-]; 0 where all are kept.
+  double violation(const Eigen::VectorXd& steps) const;
   /// Change of the Lagrangian's outputs by a step of each parameter, sum of multiplier * by_output * slope [in Optimality::objective_scale].
   const Eigen::VectorXd& lagrangian_slope() const { return lagrangian_slope_; }
 
