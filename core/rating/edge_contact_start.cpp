@@ -27,18 +27,38 @@ MeshModel at_position(const MeshModel& model, std::size_t position) {
 /// A position at which an edge is touched.
 struct Touched {
   std::size_t position;
-  double stress;  ///< the largest on an edge [MPa]
+  double stress;  ///< the largest of a strip that reaches an edge; of a sharp one that of the flank [MPa]
   Member gear;    ///< whose edge it is
 };
 
 /// Nothing where no edge is touched.
 std::optional<Touched> touched(const MeshPosition& at, const LoadedPosition& loaded, std::size_t position) {
-  Eigen::Index point = 0;
-  if (loaded.edge_stress.size() == 0 || !(loaded.edge_stress.maxCoeff(&point) > 0.0)) return std::nullopt;
-  return Touched{position, loaded.edge_stress[point], at.points[static_cast<std::size_t>(point)].tip_edge.gear};
+  std::optional<Touched> found;
+  for (std::size_t i = 0; i < at.points.size(); ++i) {
+    const double stress = loaded.contact_stress[static_cast<Eigen::Index>(i)];
+    if ((!found || stress > found->stress) && reaches_tip_edge(at, loaded, i)) found = {position, stress, at.points[i].tip_edge.gear};
+  }
+  return found;
 }
 
 }  // namespace
+
+bool reaches_tip_edge(const MeshPosition& at, const LoadedPosition& loaded, std::size_t point) {
+  const double load = loaded.load.line_load[static_cast<Eigen::Index>(point)];
+  if (at.laws.empty() || !at.laws[point].edge() || !(load > 0.0)) return false;
+  return at.laws[point].with_edge_moved(edge_moved_by(at.points[point], loaded.gap.touches[point])).reaches_edge(load);
+}
+
+bool reaches_tip_edge(const MeshModel& model, const LoadedCycle& cycle) {
+  for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
+    const MeshPosition& at = model.positions[p];
+    if (!cycle.positions[p].load.usable()) continue;
+    for (std::size_t i = 0; i < at.points.size(); ++i) {
+      if (reaches_tip_edge(at, cycle.positions[p], i)) return true;
+    }
+  }
+  return false;
+}
 
 std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque) {
   const LoadedCycle cycle = analyse_cycle(model, condition, pinion_torque, {}, {}, RootStresses::Later);

@@ -6,7 +6,12 @@
 
 namespace flankwright {
 
-/// The least torque at which contact reaches a rounded tip edge.
+/// Whether a loaded point's contact strip reaches its tip edge, rounded or sharp.
+bool reaches_tip_edge(const MeshPosition& at, const LoadedPosition& loaded, std::size_t point);
+/// Whether any of a cycle does.
+bool reaches_tip_edge(const MeshModel& model, const LoadedCycle& cycle);
+
+/// The least torque at which contact reaches a tip edge.
 struct EdgeContactStart {
   double torque{not_given};     ///< on the pinion [N mm]; 0: without load already
   Member gear{Member::Pinion};  ///< whose edge it is

@@ -314,10 +314,12 @@ const LoadedResult* first_edge_contact(const std::vector<LoadedResult>& all, boo
 }
 
 std::string edge_contact_note(const LoadedResult& first) {
-  return fmt::format(
-      "contact reaches the tip edge of the {} at {:.0f} % of {:.4g} N·m (scene \"{}\"); at all of it tip edges have up to {:.4g} MPa and {:.2g} % of the force",
-      name_of(first.edge_contact->gear), 100.0 * share_of_torque(first), first.torque / units::newton_metre, first.scene, first.summary.edge_stress,
-      100.0 * first.summary.tip_edge_share);
+  const std::string reached =
+      fmt::format("contact reaches the tip edge of the {} at {:.0f} % of {:.4g} N·m (scene \"{}\"); ", name_of(first.edge_contact->gear),
+                  100.0 * share_of_torque(first), first.torque / units::newton_metre, first.scene);
+  if (std::isnan(first.summary.edge_stress)) return reached + "the edge is sharp, its pressure has no bound and is not part of the contact stress";
+  return reached + fmt::format("at all of it tip edges have up to {:.4g} MPa and {:.2g} % of the force", first.summary.edge_stress,
+                               100.0 * first.summary.tip_edge_share);
 }
 
 }  // namespace
@@ -326,11 +328,13 @@ void StudyRun::find_edge_contact() {
   const Stopwatch clock;
   tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
     LoadedResult& loaded = results_.loaded[i];
-    if (!std::isgreater(loaded.summary.edge_stress, 0.0)) return;  // quiet where the effect is off and the stress is NaN
+    const MeshModel& model = results_.models[loaded.model];
+    // The stress is NaN of sharp edges, and where the effect is off.
+    if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(model, loaded.cycle)) return;
     // Half the points and positions do, unless no edge is reached with them.
     const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
     if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
-    if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(results_.models[loaded.model], loaded.condition, loaded.torque);
+    if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(model, loaded.condition, loaded.torque);
   });
   if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
   results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});

@@ -102,7 +102,8 @@ Json record(std::initializer_list<std::pair<const char*, double>> members) {
   return json;
 }
 
-Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
+Json point_json(const MeshPosition& at, const LoadedPosition& position, Eigen::Index i) {
+  const ContactPoint& point = at.points[static_cast<std::size_t>(i)];
   Json json = record({{"z_mm", point.z},
                       {"phase", point.phase},
                       {"pinion_radius_mm", point.pinion_radius},
@@ -115,7 +116,7 @@ Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen
                       {"gap_um", in_um(position.gap.total[i])},
                       {"error_um", in_um(position.gap.error[i])}});
   if (position.edge_stress.size() > 0) json["edge_stress_MPa"] = position.edge_stress[i];
-  if (position.edge_stress.size() > 0 && position.edge_stress[i] > 0.0) json["tip_edge"] = name_of(point.tip_edge.gear);
+  if (reaches_tip_edge(at, position, static_cast<std::size_t>(i))) json["tip_edge"] = name_of(point.tip_edge.gear);
   if (!position.gap.nearest.empty()) {
     const NearestPoint& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
     json["nearest"] = record({{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}});
@@ -148,7 +149,7 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
     for (std::size_t i = 0; i < at.points.size(); ++i) {
       Json& points = teeth.try_emplace(at.points[i].tooth, Json::array()).first->second;
       if (!with_points) continue;
-      points.push_back(point_json(at.points[i], position, static_cast<Eigen::Index>(i)));
+      points.push_back(point_json(at, position, static_cast<Eigen::Index>(i)));
       if (flash != nullptr) points.back()["flash_temperature_K"] = (*flash)[static_cast<Eigen::Index>(i)];
     }
   }

@@ -22,10 +22,10 @@ function draw_edge_marks(pen, points, to_x, to_y, apart = 9) {
 const on_tip_edges = (points) => points.filter((point) => TIP_KIND[point.tip_edge])
   .map(({ z, r, tip_edge }) => ({ z, r, kind: TIP_KIND[tip_edge], filled: true }));
 
-/** The load case whose edges touch at the least part of its torque, of one design; null: none does, undefined: edges have no known stress. */
+/** The load case whose edges touch at the least part of its torque, of one design; null: none does, undefined: nothing is known of edges. */
 function first_edge_contact(cases, design) {
   const summaries = cases.map((load_case) => ({ load_case, summary: summary_of(design ? load_case.designs[design] : final_entry(load_case)) }))
-    .filter(({ summary }) => is_number(summary.edge_stress_MPa));
+    .filter(({ summary }) => is_number(summary.edge_stress_MPa) || record(summary.edge_contact).gear);
   if (summaries.length === 0) return undefined;
   return summaries.filter(({ summary }) => is_number(record(summary.edge_contact).share_of_torque))
     .reduce((a, b) => (a === null || b.summary.edge_contact.share_of_torque < a.summary.edge_contact.share_of_torque ? b : a), null);
@@ -38,7 +38,9 @@ function edge_contact_words(found, cases) {
   const torque = `${fmt(load_case.torque)} N·m`, where = cases.length > 1 ? ` (${load_case.label})` : "";
   const from = share < 0.005 ? `at any load up to ${torque}` : `at ${fmt(100 * share, 2)} % of ${torque}`;
   const carried = is_number(summary.tip_edge_share) ? ` and up to ${fmt(100 * summary.tip_edge_share, 2)} % of the force` : "";
-  return `contact reaches the tip edge of the ${gear} ${from}${where}; at all of it tip edges have up to ${fmt(summary.edge_stress_MPa, 3)} MPa${carried}`;
+  const reached = `contact reaches the tip edge of the ${gear} ${from}${where}`;
+  if (!is_number(summary.edge_stress_MPa)) return `${reached}; the edge is sharp, its pressure has no bound and is not part of the contact stress`;
+  return `${reached}; at all of it tip edges have up to ${fmt(summary.edge_stress_MPa, 3)} MPa${carried}`;
 }
 
 /** Before and after an optimisation, else as given; null where tips are sharp or nothing is loaded. */

@@ -158,7 +158,7 @@ inline ContactSettings fine_edge_settings(const ContactTask& task) {
 }
 
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
-/// narrow enough for the stress at the contact, "layers" thinner ones still at the ends, for unequal faces; "lines" resolves the ends of lines on helical
+/// narrow enough for the stress at the contact, "layers" and "fine layers" thinner ones still at the ends, for unequal faces; "lines" resolves the ends of lines on helical
 /// teeth; "roots" and "fine roots" resolve the fillets.
 /// @throws InvalidInput  for another name
 inline const ContactMeshOptions& contact_mesh_options(std::string_view name) {
@@ -168,6 +168,7 @@ inline const ContactMeshOptions& contact_mesh_options(std::string_view name) {
       {"fine", {.flank = 16, .across = 5, .finest = 0.3, .into_depth = 2, .end_layer = 1, .layer_growth = 1.5, .largest_layer = 4, .body_rings = 3}},
       {"ends", {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 1, .layer_growth = 1.7, .largest_layer = 10}},
       {"layers", {.flank = 10, .across = 3, .finest = 0.4, .end_layer = 0.2, .layer_growth = 1.8, .largest_layer = 3}},
+      {"fine layers", {.flank = 14, .across = 4, .finest = 0.25, .end_layer = 0.1, .layer_growth = 1.6, .largest_layer = 3}},
       {"lines", {.flank = 16, .fillet = 2, .across = 4, .finest = 0.3, .into_depth = 2, .end_layer = 0.8, .layer_growth = 1.7, .largest_layer = 10}},
       {"roots", {.flank = 10, .fillet = 6, .far_fillet = 2, .across = 4, .gap_depth = 1.8, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8}},
       {"fine roots", {.flank = 10, .fillet = 10, .far_fillet = 2, .across = 5, .into_depth = 2, .gap_depth = 1.8}},
@@ -175,7 +176,7 @@ inline const ContactMeshOptions& contact_mesh_options(std::string_view name) {
   };
   const auto found = meshes.find(name);
   if (found == meshes.end())
-    throw InvalidInput("mesh", std::string(name), "coarse, medium, fine, ends, layers, lines, roots, fine roots or pressure");
+    throw InvalidInput("mesh", std::string(name), "coarse, medium, fine, ends, layers, fine layers, lines, roots, fine roots or pressure");
   return found->second;
 }
 

@@ -251,6 +251,21 @@ TEST_CASE("The torque at which edge contact begins parts torques with and withou
   CHECK(edge_contact_start(model, relieved(0.0), torque)->torque < 0.01 * torque);
 }
 
+TEST_CASE("The torque at which contact reaches an edge goes to that of the sharp edge as its rounding vanishes", "[core][rating][edge]") {
+  const FlankCondition condition = relieved(8 * units::um);
+  const auto start = [&](double rounding) {
+    const MeshModel model = mesh_cases::model(rounded_pair(0, rounding), {{QuadratureRule::Graded, 4}, equally_spaced_phases(32)});
+    const LoadedCycle cycle = analyse_cycle(model, condition, torque);
+    CHECK(reaches_tip_edge(model, cycle));
+    CHECK((summarise(model, cycle).edge_stress > 0.0) == (rounding > 0.0));  // no stress is known on a sharp edge
+    return edge_contact_start(model, condition, torque).value().torque;
+  };
+  constexpr double sought = 2e-3 * torque;  // to so much of the torque
+  CHECK(std::abs(start(1e-4) - start(0.0)) <= sought);
+  const MeshModel relieved_more = mesh_cases::model(rounded_pair(0, 0), {{QuadratureRule::Graded, 4}, equally_spaced_phases(32)});
+  CHECK_FALSE(reaches_tip_edge(relieved_more, analyse_cycle(relieved_more, relieved(60 * units::um), torque)));
+}
+
 TEST_CASE("Transmission error runs on as contact wanders over an edge", "[core][load][edge]") {
   const GearPair gears = rounded_pair(0, 0.1);
   const PathOfContact path(gears);

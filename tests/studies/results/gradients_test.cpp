@@ -48,7 +48,8 @@ bool has_no_derivative(const std::string& key) {
                                           "pinion_radius_mm",
                                           "wheel_radius_mm",
                                           "length_mm",
-                                          "along_fillet",  // where
+                                          "along_fillet",
+                                          "edge_contact",  // where
                                           "kkt_residual",
                                           "condition",
                                           "iterations",
