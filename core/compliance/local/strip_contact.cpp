@@ -75,7 +75,7 @@ StripContact::StripContact(const RoundedEdge& edge, double relative_radius, doub
     : edge_(edge), radius_(relative_radius), modulus_(contact_modulus), load_(line_load) {
   const double rho = edge.radius, e = edge.distance, R = relative_radius;
   assert(rho >= 0.0 && R > 0.0 && contact_modulus > 0.0 && line_load > 0.0 && std::isfinite(e));
-  const double k = R / (pi * rho), flank_width = std::sqrt(4.0 * line_load * R / (pi * contact_modulus));
+  const double flank_width = std::sqrt(4.0 * line_load * R / (pi * contact_modulus));
   const double x = e / flank_width;
   if (rho == 0.0 && x < 1.0) {
     const double t = std::sqrt(x * x + 3.0) - x, q = punch_ = 0.5 * (t * t - 1.0), S = t * t, N = 1.0 - q;
@@ -88,6 +88,7 @@ StripContact::StripContact(const RoundedEdge& edge, double relative_radius, doub
     rise_by_edge_ = -l * q / R + 2.0 * line_load / (pi * contact_modulus * l) * half_width_by_edge_ + (e >= 0.0 ? 0.0 : -e / R);
     return;
   }
+  const double k = rho > 0.0 ? R / (pi * rho) : std::numeric_limits<double>::infinity();
   if (x >= 1.0 || x <= -std::sqrt(1.0 + k * pi)) {
     const bool inside = x >= 1.0;
     const double relative = inside ? R : R * rho / (R + rho);
