@@ -25,8 +25,10 @@ struct Fall {
 };
 
 Fall fall_at(double psi, double phi, double q) {
-  const double s = std::sin(psi), c = std::cos(psi), steep = lambda(psi, phi);
-  return {q * c + std::sin(phi) - s * steep, -q * s - c * steep + s * std::sin(phi) / (std::cos(phi) - c)};
+  const double s = std::sin(psi), c = std::cos(psi), sum = std::sin(0.5 * (psi + phi)), difference = std::sin(0.5 * (psi - phi));
+  const double steep = std::log(std::abs(sum / difference));
+  // cos phi - cos psi as a product: at angles of 1e-8 both cosines are the same number.
+  return {q * c + std::sin(phi) - s * steep, -q * s - c * steep + 0.5 * s * std::sin(phi) / (sum * difference)};
 }
 
 /// The strip of one angle in units of its half width: k, N = e/l, S = (L/l)^2 and B, by which d(e/L)/d(cos phi) = B/sqrt(S).

@@ -54,7 +54,8 @@ inline ContactTask edge_task(double rounding, Member edge, double outside, doubl
 inline ContactTask helical_edge_task(double rounding, double approach_um) {
   PairData data = pair_cases::pair_data(27, 43, 20, 2, 5);
   data.pinion.tip_rounding = data.wheel.tip_rounding = rounding * data.normal_module;
-  return contact_task(data, PathOfContact(make_gear_pair(data)).path_end(), approach_um);
+  const PathOfContact path(make_gear_pair(data));
+  return contact_task(data, path.path_end() - path.phase_at(0.0, 0.0), approach_um);
 }
 
 /// The spur pair with a face of one module, aligned, and a wheel that is wider.
@@ -143,6 +144,8 @@ inline ContactSettings edge_settings(const ContactTask& task, int flank, int acr
   settings.penalty = 1e9;    // 1500 MPa sink in by 2 nm, where a rounding is flattened by 50 to 200
   if (!task.plane_strain) {  // thin layers where the line of contact meets the edge
     settings.mesh.middle_layer = middle_layer;
+    settings.mesh.edge_reach = 0;
+    settings.mesh.edge_blend = 0.3;
     settings.mesh.layer_growth = 1.5;
     settings.mesh.largest_layer = 2;
   }
@@ -151,7 +154,7 @@ inline ContactSettings edge_settings(const ContactTask& task, int flank, int acr
 
 /// Helical pairs have far more layers, and therefore fewer elements in each.
 inline ContactSettings edge_settings(const ContactTask& task) {
-  return task.plane_strain ? edge_settings(task, 24, 8, 0) : edge_settings(task, 16, 6, 0.25);
+  return task.plane_strain ? edge_settings(task, 24, 8, 0) : edge_settings(task, 14, 5, 0.25);
 }
 inline ContactSettings fine_edge_settings(const ContactTask& task) {
   return task.plane_strain ? edge_settings(task, 36, 10, 0) : edge_settings(task, 20, 6, 0.15);

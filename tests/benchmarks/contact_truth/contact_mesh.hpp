@@ -30,6 +30,7 @@ struct ContactMeshOptions {
   double plain_element{20};   ///< widest element around the axis where nothing meshes [deg]
   double edge_finest{0};      ///< delta where contact reaches a rounded tip edge; 0: the same as elsewhere
   double edge_reach{0};       ///< distance of the contact from the edge below which it is taken to reach it
+  double edge_blend{0};  ///< distance over which elements grow from edge_finest to finest, the contact in their middle; 0: at edge_reach, at once
 };
 
 /// One gear of the scene at one mesh position.

@@ -39,8 +39,11 @@ ToothSurface::Finest ToothSurface::finest(int tooth, double z) const {
   const double pinion_roll = path_.roll_at(path_.phase_at(gear_.line_phase + pair_of(tooth), z));
   const double roll = std::max(0.0, pinion() ? pinion_roll : gear_.pair->path_length - pinion_roll);
   const auto contact = contact_point(*gear_.pair, path_, gear_.line_phase, pair_of(tooth), z, true);
-  if (options_.edge_finest == 0 || !contact || !(contact->tip_edge.radius > 0) || contact->tip_edge.distance > options_.edge_reach) {
-    return {involute_arc(roll), options_.finest};
+  if (options_.edge_finest == 0 || !contact || !(contact->tip_edge.radius > 0)) return {involute_arc(roll), options_.finest};
+  const double distance = contact->tip_edge.distance;
+  if (distance > options_.edge_reach) {
+    const double share = std::min(1.0, options_.edge_blend > 0 ? distance / options_.edge_blend : 1.0);
+    return {involute_arc(roll), options_.edge_finest + share * (options_.finest - options_.edge_finest)};
   }
   if (contact->tip_edge.gear == gear_.member) return {involute_arc(tip_->flank_end()), options_.edge_finest};
   return {involute_arc(g.roll_length_at(pinion() ? contact->pinion_radius : contact->wheel_radius)), options_.edge_finest};
