@@ -277,7 +277,7 @@ class StepSearch {
   const int most_;
   const Eigen::VectorXd exact_;
   double exact_objective_{not_given};
-  Eigen::VectorXd x_;                 ///< the nearest steps
+  Eigen::VectorXd x_;                 ///< where the search begins
   std::vector<int> stepped_, first_;  ///< variables with a step; scenes in the order they are tried
   int analyses_{0};
   RoundedDesign best_;
