@@ -183,6 +183,7 @@ class StepSearch {
     const std::optional<std::size_t> better = first_better_of(designs);
     return better ? std::optional(number[*better]) : std::nullopt;
   }
+  /// Of designs that are all worth an analysis.
   std::optional<std::size_t> first_better_of(std::span<const Eigen::VectorXd> designs) {
     std::span<const Eigen::VectorXd> some;
     for (std::size_t begin = 0; begin < designs.size() && analyses_ < most_; begin += some.size()) {
@@ -233,6 +234,7 @@ class StepSearch {
     return designs;
   }
 
+  /// Takes each of the corners that is better than the best.
   void try_corners() {
     std::vector<Eigen::VectorXd> designs = corners();
     while (!designs.empty()) {

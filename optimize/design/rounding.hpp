@@ -14,12 +14,14 @@ struct RoundedDesign {
   int analyses{0};                         ///< of the whole scene set, including those that ended at a scene too bad for a worst case
 };
 
-/// Best neighbour of a design on the steps of its variables: from the corner of the cell of steps around it that a LocalModel has least, single variables and then pairs of them move by
-/// one step as long as that helps (feasible first, then the objective). Where the rounded design is then infeasible or worse than
-/// the design itself by more than dear_rounding, the other corners are tried, the most promising first, and single variables and pairs move by up to
-/// two steps. No design is analysed that the model has above the best by more than dear_rounding
-/// and by more than the model was above any design that was analysed. No global search: the best of all combinations may be missed, not by much
-/// near a flat optimum.
+/// Best neighbour of a design on the steps of its variables. The search begins at the corner of the cell of steps around the design that a LocalModel
+/// has least. Single variables and then pairs of them move by one step as long as that helps (feasible first, then the objective). Where the rounded
+/// design is then infeasible or worse than the design itself by more than dear_rounding, the other corners are tried, the most promising first, and
+/// single variables and pairs move by up to two steps.
+///
+/// A design is not analysed where the model has it above the best by more than dear_rounding and by more than it was above any design that was analysed.
+/// With scalarised objectives, or a budget of one analysis, there is no model: the search begins at the nearest steps and analyses every neighbour.
+/// No global search: the best of all combinations may be missed, not by much near a flat optimum.
 /// @param most_analyses  >= 1; the search ends in order with the best so far
 RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses);
 

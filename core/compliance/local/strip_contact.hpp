@@ -41,7 +41,7 @@ struct RoundedEdge {
 ///
 ///     m/l = -q,   (L/l)^2 = 1 + 2 q,   e/L = (1 - q) l/L,   so that   L/l = sqrt((e/L)^2 + 3) - e/L.
 ///
-/// The strip ends at the edge, where its pressure rises without bound as that of a punch: it has no peaks but the load that they carry is right.
+/// The strip ends at the edge, where its pressure rises without bound as that of a punch. No peak is known there; load, width and approach are right.
 class StripContact {
  public:
   /// @param relative_radius  R [mm], > 0

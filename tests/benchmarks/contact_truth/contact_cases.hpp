@@ -131,10 +131,10 @@ inline std::vector<CycleCase> cycle_cases() {
   return {{"cycle, spur", pair_data(0, 40), 2357e3, 12}, {"cycle, helical", pair_data(30, 40), 3177e3, 8}};
 }
 
-/// A mesh for edge_task() and helical_edge_task(): elements around the edge of a third of the half width that 20 N/mm press into the rounding, times the growth of a few
-/// elements.
+/// A mesh for edge_task() and helical_edge_task(). Elements around the edge are a third as wide as half the contact strip of 20 N/mm on the rounding, and
+/// grow from there.
 /// @param flank, across  elements, ContactMeshOptions
-/// @param middle_layer   the same, of a helical pair
+/// @param middle_layer   of a helical pair [mm], ContactMeshOptions
 inline ContactSettings edge_settings(const ContactTask& task, int flank, int across, double middle_layer) {
   const Material& m = task.material;
   ContactSettings settings;
