@@ -103,6 +103,7 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
   if (!task.scalarisation.empty() || !task.later_objectives.empty()) return;
   const Stopwatch clock;
   const int analyses_before = problem.analyses();
+  const std::int64_t cycles_before = problem.cycles();
   DesignResult& design = found.design;
   const DesignReport& best = design.exact ? *design.exact : design.after;
   const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
@@ -133,9 +134,8 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
                         " that no peak at a position felt";
     }
   }
-  const int analyses = problem.analyses() - analyses_before;
-  design.evaluations += analyses;
-  found.fine.analyses += analyses;
+  design.evaluations += problem.analyses() - analyses_before;
+  found.fine.cycles += problem.cycles() - cycles_before;
   found.fine.seconds += clock.seconds();
   design.seconds += clock.seconds();
 }

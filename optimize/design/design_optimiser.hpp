@@ -47,7 +47,7 @@ struct DesignResult {
   std::vector<LexicographicStage> stages;  ///< of a list of objectives; empty for one
   std::vector<LocalRun> runs;              ///< one a start, of the first objective
   std::vector<LocalOptimum> optima;        ///< the different ones among them, best first
-  int evaluations{-1};                     ///< analyses of the whole scene set, all starts, stages and rounding
+  int evaluations{-1};                     ///< designs analysed, in all scenes or in those that decide: all starts, stages and rounding
   int gradient_evaluations{-1};            ///< of these, with derivatives
   int failures{-1};                        ///< analyses that did not converge; survived
   int rounds{-1};                          ///< of candidate generation (1 for "direct") in the best run

@@ -117,14 +117,16 @@ DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<O
 
 DesignProblem DesignProblem::over_scenes(const std::vector<int>& scenes) const {
   DesignProblem other = *this;
-  other.task_.scenes.clear();
-  other.models_.clear();
-  for (const int s : scenes) {
-    other.task_.scenes.push_back(task_.scenes[static_cast<std::size_t>(s)]);
-    other.models_.push_back(models_[static_cast<std::size_t>(s)]);
-  }
-  other.last_x_.resize(0);
-  other.last_ = {};
+  const auto keep = [&scenes](auto& of_all) {
+    if (of_all.empty()) return;
+    std::remove_reference_t<decltype(of_all)> kept;
+    for (const int s : scenes) kept.push_back(std::move(of_all[static_cast<std::size_t>(s)]));
+    of_all = std::move(kept);
+  };
+  keep(other.task_.scenes);
+  keep(other.models_);
+  keep(other.fillets_);
+  keep(other.last_.cycles);
   other.analyses_ = 0;
   return other;
 }
@@ -200,6 +202,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
                                          const LoadedCycle* earlier) const {
   const double torque = task_.scenes[static_cast<std::size_t>(scene)].torque;
   const FlankCondition of_scene = condition(scene, modification);
+  ++*cycles_;
   const auto analyse = [&](const MeshModel& mesh_model) {
     return analyse_cycle(mesh_model, of_scene, torque, parameters, {}, root_stresses_, earlier);
   };

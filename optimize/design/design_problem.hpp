@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -42,8 +44,8 @@ class DesignProblem {
   /// The same scenes and variables judged by other objectives, models shared; nothing analysed yet.
   DesignProblem judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds, std::vector<ScalarisedObjective> scalarisation = {}) const;
 
-  /// The same task over some of its scenes only, models shared; nothing analysed yet.
-  /// @param scenes  indices, at least one
+  /// The same task over some of its scenes only, models shared; no analysis counted yet, the last one kept for these scenes.
+  /// @param scenes  different indices, at least one
   DesignProblem over_scenes(const std::vector<int>& scenes) const;
 
   /// Whether a bound can be exceeded by more or less: an upper bound on an output or an objective.
@@ -96,6 +98,8 @@ class DesignProblem {
 
   /// Runs of analyse() that were computed, not remembered.
   int analyses() const { return analyses_; }
+  /// Whole cycles of one scene each that this problem and all its copies have analysed.
+  std::int64_t cycles() const { return *cycles_; }
 
   /// Weighted sum of the objective's outputs in one scene, outside units.
   double scene_measure(const DesignAnalysis& analysis, int scene) const;
@@ -142,6 +146,7 @@ class DesignProblem {
   bool last_has_derivatives_{false};
   DesignAnalysis last_;
   int analyses_{0};
+  std::shared_ptr<std::atomic<std::int64_t>> cycles_{std::make_shared<std::atomic<std::int64_t>>(0)};
 };
 
 }  // namespace flankwright

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/deciding_scenes.hpp"
 #include "optimize/design/direct_program.hpp"
 #include "optimize/design/epigraph_program.hpp"
 
@@ -19,6 +21,13 @@ constexpr int most_rounds = 20;
 /// A search ends by these shares, or by its solver's tolerance where that is larger.
 constexpr double round_tolerance = 1e-6;  // see run_local()
 constexpr double stall_gain = 1e-5;       // share of the objective at the start
+
+/// A worst case over fewer scenes is searched over all of them: the others save less than a second search costs where the first has left out the wrong ones.
+constexpr int fewest_scenes_to_choose_from = 12;
+/// Scenes take part whose measure is less below the worst than this share, see deciding_scenes(): a search moves those beside it as well.
+constexpr double nearly_deciding = 0.01;
+/// SolverOptions::tolerance of a search that is to find out which scenes decide.
+constexpr double short_step = 0.01;
 
 double round_tolerance_of(const SolverOptions& options) { return std::max(round_tolerance, options.tolerance); }
 double stall_gain_of(const SolverOptions& options) { return std::max(stall_gain, options.tolerance); }
@@ -113,9 +122,8 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   }
 }
 
-}  // namespace
-
-LocalRun run_local(DesignProblem& problem, const SolverOptions& options) {
+/// One search over all scenes of a problem.
+LocalRun run_over_all(DesignProblem& problem, const SolverOptions& options) {
   const Stopwatch clock;
   const int analyses_before = problem.analyses();
   LocalRun run;
@@ -153,6 +161,79 @@ LocalRun run_local(DesignProblem& problem, const SolverOptions& options) {
   }
   run.seconds = clock.seconds();
   return run;
+}
+
+/// Takes up a search over some of the scenes as a part of a run over all.
+void add_part(const LocalRun& part, LocalRun& run) {
+  run.status = part.status;
+  run.message = part.message;
+  if (!part.finished_by.empty()) run.finished_by = part.finished_by;
+  run.failures += part.failures;
+  run.rounds += part.rounds;
+  const int before = static_cast<int>(std::ssize(run.history));
+  for (SolverStep step : part.history) {
+    step.evaluation += before;
+    run.history.push_back(step);
+  }
+}
+
+/// Searches over the scenes that decide, held against all, until no other scene does.
+LocalRun run_over_deciding(DesignProblem& problem, const SolverOptions& options) {
+  const Stopwatch clock;
+  const int analyses_before = problem.analyses();
+  LocalRun run;
+  run.start = run.x = problem.start();
+  run.epigraph = true;
+  run.failures = run.rounds = 0;
+  DesignLog log(nullptr);
+  log.record(problem, run.x, problem.analyse(run.x, false));
+  std::set<int> scenes = deciding_scenes(problem, problem.analyse(run.x, false), nearly_deciding);
+  scenes.merge(worst_scenes(problem, problem.analyse(run.x, false), problem.scenes() / 4));
+  int analyses_of_parts = 0;
+  const auto evaluations = [&] { return problem.analyses() - analyses_before + analyses_of_parts; };
+  bool is_first = true, is_done = false;  // the first finds out which scenes decide
+  while (!is_done) {
+    DesignProblem some = problem.over_scenes({scenes.begin(), scenes.end()});
+    some.set_start(run.x);
+    SolverOptions rest = remaining(options, evaluations() + 1, clock.seconds());  // one is left to hold the result against all
+    if (is_first) rest.tolerance = std::max(options.tolerance, short_step);
+    if (options.progress)
+      rest.progress = [&options, before = evaluations()](int analyses, double objective) { options.progress(before + analyses, objective); };
+    const LocalRun part = run_over_all(some, rest);
+    add_part(part, run);
+    analyses_of_parts += part.evaluations;
+    run.x = part.x;
+    if (run.status != SolverStatus::Converged && run.status != SolverStatus::Stalled) break;
+    const DesignAnalysis& all = problem.analyse(run.x, false);
+    log.record(problem, run.x, all);
+    const double excess = log.entries().back().objective - part.objective;
+    const std::size_t known = scenes.size();
+    if (excess > round_tolerance_of(options) * std::abs(part.objective))
+      scenes.merge(deciding_scenes(problem, all, nearly_deciding, std::set<int>(scenes)));
+    is_done = !is_first && scenes.size() == known;
+    is_first = false;
+  }
+  log.record(problem, run.x, problem.analyse(run.x, false));
+  run.evaluations = evaluations();
+  run.x = log.best()->x;
+  run.objective = log.best()->objective;
+  run.constraint_violation = log.best()->constraint_violation;
+  run.seconds = clock.seconds();
+  return run;
+}
+
+}  // namespace
+
+LocalRun run_local(DesignProblem& problem, const SolverOptions& options) {
+  const bool epigraph = uses_gradients(options.name) && accepts_constraints(options.name);
+  if (!epigraph || problem.scenes() < fewest_scenes_to_choose_from || !single_scenes_decide(problem.task())) return run_over_all(problem, options);
+  try {
+    return run_over_deciding(problem, options);
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::runtime_error&) {  // a scene cannot be analysed at a design that was held against all: says so, or finds a way round
+    return run_over_all(problem, options);
+  }
 }
 
 }  // namespace flankwright

@@ -14,11 +14,11 @@ struct LocalRun {
   Eigen::VectorXd start, x;                ///< scaled designs: first and best
   double objective{not_given};             ///< at x, outside units
   double constraint_violation{not_given};  ///< at x [-]
-  int evaluations{-1};                     ///< analyses of the whole scene set
+  int evaluations{-1};                     ///< designs analysed, in all scenes or in those that decide
   int failures{-1};                        ///< analyses that did not converge; survived
   int rounds{-1};                          ///< of candidate generation (1 without epigraph)
   double seconds{not_given};
-  std::vector<SolverStep> history;  ///< one entry per analysis: true objective and violation
+  std::vector<SolverStep> history;  ///< one entry per analysis: true objective and violation, by the scenes that were analysed
 };
 
 /// Searches from problem.start().
@@ -28,7 +28,12 @@ struct LocalRun {
 /// larger), or 20 rounds are done. A round ends early where the solver no longer gains, and one that
 /// gained nothing is repeated once with more patience. On a kink
 /// options.finisher continues from its best design; `finished_by` and `message` then say so.
-/// Other solvers get the direct form. The best design met under the true outputs is returned, wherever the solver
+/// Other solvers get the direct form.
+///
+/// Of many scenes the epigraph form has those that decide (single_scenes_decide()). Its optimum is held against all, and where another scene exceeds it,
+/// the search goes on from there with that one as well.
+///
+/// The best design met under the true outputs is returned, wherever the solver
 /// stopped.
 LocalRun run_local(DesignProblem& problem, const SolverOptions& options);
 

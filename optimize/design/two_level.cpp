@@ -97,9 +97,10 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
   const Stopwatch clock;
   TwoLevelDesign result;
   result.fine.resolution = problem.task().resolution;
+  const std::int64_t cycles_before = problem.cycles();
   if (!can_be_coarser(problem.task())) {
     result.design = optimise_design(problem, options);
-    result.fine.analyses = result.design.evaluations;
+    result.fine.cycles = problem.cycles() - cycles_before;
     result.fine.seconds = clock.seconds();
     result.search = result.fine;
     result.objective_seen_by_search = (result.design.exact ? *result.design.exact : result.design.after).objective;
@@ -109,12 +110,13 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
   DesignOptions search = options;
   search.solver.tolerance = std::max(options.solver.tolerance, coarse_tolerance);
   const DesignResult coarse = optimise_design(coarse_problem, search);
-  result.search = {coarse_problem.task().resolution, coarse.evaluations, clock.seconds()};
+  result.search = {coarse_problem.task().resolution, coarse_problem.cycles(), clock.seconds()};
   result.objective_seen_by_search = coarse.after.objective;
 
   const Stopwatch fine_clock;
   result.design = coarse;
   problem.set_start(best_start(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0)));
+  result.fine.cycles = problem.cycles() - cycles_before;
   go_on(problem, options, result);
   result.fine.seconds = fine_clock.seconds();
   result.design.seconds = clock.seconds();
@@ -128,8 +130,9 @@ void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign&
   finish.solver.name = options.solver.finisher == "none" ? options.solver.name : options.solver.finisher;
   finish.solver.finisher = "none";
   finish.most_search_analyses = most_fine_analyses;
+  const std::int64_t cycles_before = problem.cycles();
   DesignResult fine = optimise_design(problem, finish);
-  found.fine.analyses += fine.evaluations;
+  found.fine.cycles += problem.cycles() - cycles_before;
   join(found.design, fine);
   found.design = std::move(fine);
 }
@@ -138,9 +141,9 @@ void choose_what_to_grind(DesignProblem& problem, const DesignOptions& options, 
   const Stopwatch clock;
   DesignProblem last = last_stage(problem, found.design.stages);
   const Eigen::VectorXd x = problem.scaled_design(found.design.after.variables).cwiseMax(0.0).cwiseMin(1.0);
-  const int before = found.design.evaluations;
+  const std::int64_t cycles_before = problem.cycles();
   choose_what_to_grind(problem, last, x, left_of(options.solver, found.design), found.design);
-  found.fine.analyses += found.design.evaluations - before;
+  found.fine.cycles += problem.cycles() - cycles_before;
   found.fine.seconds += clock.seconds();
   found.design.seconds += clock.seconds();
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "optimize/design/design_optimiser.hpp"
 
 namespace flankwright {
@@ -7,7 +9,7 @@ namespace flankwright {
 /// The work of a two-level search on each level.
 struct LevelWork {
   MeshResolution resolution;
-  int analyses{0};            ///< of the whole scene set
+  std::int64_t cycles{0};     ///< of one scene each
   double seconds{not_given};  ///< wall time
 };
 

@@ -1,5 +1,6 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/deciding_positions_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/deciding_scenes_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/design_aggregate_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/design_optimiser_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/design_outputs_test.cpp

@@ -50,18 +50,17 @@ void add_errors(const DesignErrors& errors, const DesignTask& task, Json& json) 
   if (!errors.later_objectives.empty()) json["later_objectives_error"] = errors.later_objectives;
 }
 
-Json resolution_json(const LevelWork& work, std::size_t scenes) {
-  const double cycles = static_cast<double>(work.analyses) * static_cast<double>(scenes);
+Json resolution_json(const LevelWork& work) {
   return {{"quadrature", quadrature_json(work.resolution.quadrature)},
           {"positions", work.resolution.phases.size()},
-          {"cycles", cycles},
-          {"milliseconds_per_cycle", 1e3 * work.seconds / cycles},
+          {"cycles", work.cycles},
+          {"milliseconds_per_cycle", 1e3 * work.seconds / static_cast<double>(work.cycles)},
           {"seconds", work.seconds}};
 }
 
-Json assessment_json(const SearchWork& work, std::size_t scenes) {
-  return {{"search", resolution_json(work.search, scenes)},
-          {"assessed", resolution_json(work.fine, scenes)},
+Json assessment_json(const SearchWork& work) {
+  return {{"search", resolution_json(work.search)},
+          {"assessed", resolution_json(work.fine)},
           {"objective_seen_by_search", work.objective_seen_by_search},
           {"searches", work.search.resolution.quadrature.intervals == work.fine.resolution.quadrature.intervals ? 1 : 2}};
 }
@@ -241,7 +240,7 @@ Json optimise_json(const StudyResults& results) {
              })}};
   add_errors(results.before_errors, task, json["before"]);
   add_errors(results.after_errors, task, json["after"]);
-  if (results.search_work) json["assessment"] = assessment_json(*results.search_work, task.scenes.size());
+  if (results.search_work) json["assessment"] = assessment_json(*results.search_work);
   if (design.exact) {
     json["exact"] = design_report_json(*design.exact, task);
     json["rounded"] = {

@@ -103,7 +103,7 @@ std::string optimise_summary(const StudyResults& results) {
                        results.after_errors.constraint_values[c] * output.outside_factor());
     }
   }
-  out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
+  out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
   for (const std::string& sentence : grinding_choices_in_words(design, task)) out += sentence + "\n";
   if (design.exact) {
@@ -114,9 +114,8 @@ std::string optimise_summary(const StudyResults& results) {
   if (results.search_work) {
     const SearchWork& work = *results.search_work;
     const auto level = [&](const LevelWork& w) {
-      const double cycles = static_cast<double>(w.analyses) * static_cast<double>(task.scenes.size());
-      return fmt::format("{:.0f} cycles of {} intervals and {} positions, {:.2g} ms each", cycles, w.resolution.quadrature.intervals,
-                         w.resolution.phases.size(), 1e3 * w.seconds / cycles);
+      return fmt::format("{} cycles of {} intervals and {} positions, {:.2g} ms each", w.cycles, w.resolution.quadrature.intervals,
+                         w.resolution.phases.size(), 1e3 * w.seconds / static_cast<double>(w.cycles));
     };
     const bool two = work.search.resolution.quadrature.intervals != work.fine.resolution.quadrature.intervals;
     out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
