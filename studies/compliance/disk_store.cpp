@@ -189,10 +189,15 @@ std::string keep_under(const Json& key, const StoredRun& run, std::vector<std::s
 
 std::optional<Kept<InfluenceTableRun>> DiskStore::find(const InfluenceTableTask& task) {
   InfluenceTableTask asked = task;
-  for (;; asked.root_stress = true) {
-    auto run = kept(cache_key(asked), "finite-element run", notes_, [&](const StoredRun& stored) { return from_store(task, stored); });
-    if (run || asked.root_stress) return run;
+  std::vector<std::string> notes;
+  auto run = kept(cache_key(asked), "finite-element run", notes, [&](const StoredRun& stored) { return from_store(task, stored); });
+  if (!run && !asked.root_stress) {
+    asked.root_stress = true;
+    run = kept(cache_key(asked), "finite-element run", notes, [&](const StoredRun& stored) { return from_store(task, stored); });
   }
+  const std::lock_guard lock(notes_mutex_);
+  notes_.insert(notes_.end(), notes.begin(), notes.end());
+  return run;
 }
 
 std::string DiskStore::keep(const InfluenceTableTask& task, const InfluenceTableRun& run) {

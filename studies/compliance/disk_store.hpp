@@ -1,5 +1,7 @@
 #pragma once
 
+#include <mutex>
+
 #include "core/compliance/model/compliance_store.hpp"
 
 namespace flankwright::studies {
@@ -17,6 +19,7 @@ class DiskStore final : public ComplianceStore {
 
  private:
   std::vector<std::string> notes_;
+  std::mutex notes_mutex_;
 };
 
 }  // namespace flankwright::studies

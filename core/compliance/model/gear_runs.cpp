@@ -128,7 +128,6 @@ bool take(Job& job, ComplianceStore* store) {
   if (!kept) return false;
   job.run = std::move(kept->value);
   job.file = std::move(kept->where);
-  job.from_cache = true;
   job.seconds = clock.seconds();
   return true;
 }
@@ -166,9 +165,10 @@ FiniteElementRuns solve_finite_elements(const ComplianceTask& task, const Compli
   const Stopwatch clock;
   FiniteElementRuns runs;
   std::vector<Job> jobs = jobs_of(task);
+  run_for_each(build.for_each, jobs.size(), [&](std::size_t i) { jobs[i].from_cache = take(jobs[i], build.store); });
   std::vector<Job*> missing;
   for (Job& job : jobs) {
-    if (!take(job, build.store)) missing.push_back(&job);
+    if (!job.from_cache) missing.push_back(&job);
   }
   if (!missing.empty()) solve_side_by_side(missing, task.model, build);
   for (Job* job : missing) {
