@@ -23,6 +23,8 @@ constexpr std::size_t scenes_tried_first = 4;
 /// Number of designs whose first scenes are analysed in parallel. It does not depend on the threads, so that nothing else does.
 constexpr std::size_t tried_together = 16;
 
+constexpr double round_off = 1e-9;  // of a step: a bound that is a multiple of it counts as one
+
 /// A search over whole numbers of steps; variables without a step keep their values. A worst case is no better where one scene
 /// already reaches the best so far, or one position of it: the scenes that governed last are tried first, of each the positions that decided, and most
 /// designs go no further. Loads start from those of the best design.
@@ -37,6 +39,7 @@ class StepSearch {
       stepped_.push_back(i);
       place(x_, i, std::round(problem.unscaled(x, i) / v.step));
     }
+    moving_ = stepped_;
     first_.resize(static_cast<std::size_t>(problem.scenes()));
     std::iota(first_.begin(), first_.end(), 0);
     if (most_ > 1 && std::isfinite(exact_objective_) && problem.task().scalarisation.empty()) {
@@ -54,10 +57,12 @@ class StepSearch {
   RoundedDesign run() {
     while (improve_singly(1) || improve_in_pairs(1)) {
     }
-    if (!is_dear()) return best_;
-    try_corners();
-    while (improve_singly(1) || improve_in_pairs(1) || improve_singly(2) || improve_in_pairs(2)) {
+    if (is_dear()) {
+      try_corners();
+      while (improve_singly(1) || improve_in_pairs(1) || improve_singly(2) || improve_in_pairs(2)) {
+      }
     }
+    leave_out_idle();
     return best_;
   }
 
@@ -67,7 +72,6 @@ class StepSearch {
   /// Sets variable i to a number of steps, the nearest within DesignProblem::set_box().
   void place(Eigen::VectorXd& x, int i, double steps) const {
     const DesignVariable& v = variable(i);
-    constexpr double round_off = 1e-9;  // of a step: a bound that is a multiple of it counts as one
     const double least = std::ceil(problem_.unscaled(problem_.lower(), i) / v.step - round_off);
     const double most = std::floor(problem_.unscaled(problem_.upper(), i) / v.step + round_off);
     x[i] = std::clamp(v.scaled(std::clamp(steps, least, std::max(least, most)) * v.step), problem_.lower()[i], problem_.upper()[i]);
@@ -246,7 +250,7 @@ class StepSearch {
 
   bool improve_singly(int reach) {
     std::vector<std::pair<int, int>> moves;
-    for (int i : stepped_) moves.insert(moves.end(), {{i, -reach}, {i, reach}});
+    for (int i : moving_) moves.insert(moves.end(), {{i, -reach}, {i, reach}});
     bool improved = false;
     for (std::size_t next = 0; next < moves.size();) {
       std::vector<Eigen::VectorXd> designs;
@@ -262,12 +266,12 @@ class StepSearch {
   /// Two variables at once, one of them by as many steps as the reach.
   bool improve_in_pairs(int reach) {
     std::vector<Eigen::VectorXd> designs;
-    for (std::size_t a = 0; a < stepped_.size(); ++a) {
-      for (std::size_t b = a + 1; b < stepped_.size(); ++b) {
+    for (std::size_t a = 0; a < moving_.size(); ++a) {
+      for (std::size_t b = a + 1; b < moving_.size(); ++b) {
         for (int by = -reach; by <= reach; ++by) {
           for (int with = -reach; with <= reach; ++with) {
             if (by == 0 || with == 0 || std::max(std::abs(by), std::abs(with)) < reach) continue;
-            designs.push_back(moved(moved(best_.x, stepped_[a], by), stepped_[b], with));
+            designs.push_back(moved(moved(best_.x, moving_[a], by), moving_[b], with));
           }
         }
       }
@@ -275,12 +279,76 @@ class StepSearch {
     return first_better(designs).has_value();
   }
 
+  /// A design near x that the model has at an objective of at most so much: all variables but one move by a step, singly where that helps, else in
+  /// pairs. Where none is found the last one.
+  Eigen::VectorXd brought_down(Eigen::VectorXd x, int held, double most) const {
+    constexpr int most_moves = 20;
+    Predicted least = predict(x);
+    const auto best_of = [&](const std::vector<Eigen::VectorXd>& designs) {
+      bool better = false;
+      for (const Eigen::VectorXd& design : designs) {
+        const Predicted predicted = predict(design);
+        if (!(predicted < least)) continue;
+        least = predicted;
+        x = design;
+        better = true;
+      }
+      return better;
+    };
+    for (int move = 0; move < most_moves && (least.violation > 0.0 || least.objective > most); ++move) {
+      const std::vector<Eigen::VectorXd> singles = moved_by_one(x, held);
+      if (best_of(singles)) continue;
+      std::vector<Eigen::VectorXd> pairs;
+      for (const Eigen::VectorXd& one : singles) {
+        const std::vector<Eigen::VectorXd> further = moved_by_one(one, held);
+        pairs.insert(pairs.end(), further.begin(), further.end());
+      }
+      if (!best_of(pairs)) break;
+    }
+    return x;
+  }
+  std::vector<Eigen::VectorXd> moved_by_one(const Eigen::VectorXd& x, int held) const {
+    std::vector<Eigen::VectorXd> designs;
+    for (const int i : moving_) {
+      if (i != held) designs.insert(designs.end(), {moved(x, i, -1), moved(x, i, 1)});
+    }
+    return designs;
+  }
+
+  /// What others can make up for, in steps of a variable.
+  static constexpr double few_steps = 3.0;
+  /// Sets every variable to 0 that the objective does not need where the others make up for it, all together within idle_share.
+  void leave_out_idle() {
+    if (!is_feasible(best_) || !model_) return;
+    const double most = (1.0 + idle_share) * best_.objective;
+    for (const int i : stepped_) {
+      Eigen::VectorXd x = best_.x;
+      place(x, i, 0.0);
+      if (x == best_.x || std::abs(problem_.unscaled(x, i)) > round_off * variable(i).step || analyses_ >= most_) continue;
+      const double steps = std::abs(problem_.unscaled(best_.x, i) / variable(i).step);
+      if (steps <= few_steps) x = brought_down(x, i, most);
+      const Predicted predicted = predict(x);
+      if (predicted.violation > DesignLog::tolerance || predicted.objective > most + objective_margin_) continue;
+      const RoundedDesign with = best_;
+      take(judge(x));
+      std::erase(moving_, i);
+      // A neighbour costs little only where one scene rules it out.
+      while (scenes_rule_out() && best_.objective > most && (improve_singly(1) || improve_in_pairs(1))) {
+      }
+      if (is_feasible(best_) && best_.objective <= most) continue;
+      moving_.push_back(i);
+      take(with);
+    }
+    best_.analyses = analyses_;
+  }
+
   DesignProblem& problem_;
   const int most_;
   const Eigen::VectorXd exact_;
   double exact_objective_{not_given};
-  Eigen::VectorXd x_;                 ///< where the search begins
-  std::vector<int> stepped_, first_;  ///< variables with a step; scenes in the order they are tried
+  Eigen::VectorXd x_;                  ///< where the search begins
+  std::vector<int> stepped_, moving_;  ///< variables with a step, and those of them that may still move
+  std::vector<int> first_;             ///< scenes in the order they are tried
   int analyses_{0};
   RoundedDesign best_;
   std::vector<LoadedCycle> best_cycles_;            ///< of it, one per scene

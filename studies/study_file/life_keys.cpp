@@ -175,7 +175,7 @@ std::vector<SchemaKey> life_rows() {
       {.path = "lubricant.roughness", .quantity = Quantity::Deviation, .range = above_zero(100.0), .fallback = "(none; a lubricant needs it)",
        .meaning = "Ra, mean of both flanks",
        .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d); life(d).roughness = v.number; }},
-      {.path = "lubricant.bulk_temperature", .quantity = Quantity::Temperature, .range = oil_temperature, .fallback = "(ISO/TR 15144-1 without tip relief, injected oil)",
+      {.path = "lubricant.bulk_temperature", .quantity = Quantity::Temperature, .range = oil_temperature, .fallback = "(ISO/TS 6336-22, formerly ISO/TR 15144-1: without tip relief, injected oil)",
        .meaning = "of the teeth",
        .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d); life(d).bulk_temperature = v.number; }},
       {.path = "lubricant.permissible_film", .range = above_zero(100.0), .fallback = "(none)",

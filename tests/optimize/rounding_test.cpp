@@ -93,3 +93,19 @@ TEST_CASE("Without steps nothing is rounded, and a budget of one analysis gives 
   CHECK(problem.unscaled(nearest.x, 0) == Approx(0.010).epsilon(round_off));  // 10.4 um
   CHECK(problem.unscaled(nearest.x, 1) == Approx(0.0).margin(round_off));     // 0.4 um
 }
+
+TEST_CASE("An amount that the objective does not feel is not ground", "[optimize][design][rounding]") {
+  // End relief over a hundredth of a millimetre lies beside all points of contact: whatever its amount, the stress is the same.
+  DesignTask task = in_steps(1.0);
+  set(task.modification.pinion, parameter_of("end_relief.length"), 0.01);
+  task.variables.push_back(
+      {"pinion.modification.end_relief.amount", Member::Pinion, parameter_of("end_relief.amount"), 0.0, 40 * units::um, units::um});
+  DesignProblem problem(task);
+  const RoundedDesign found = round_design(problem, problem.scaled_design({15 * units::um, 0.0, 7 * units::um}), 1000);
+  CHECK(problem.unscaled(found.x, 2) == 0.0);
+  CHECK(problem.unscaled(found.x, 0) > 0.0);  // crowning is felt
+  // Nothing else is given up for it than the share that the objective may rise by.
+  DesignProblem held(task);
+  held.set_box(Eigen::Vector3d(0.0, 0.0, 7.0 / 40.0), Eigen::Vector3d(1.0, 1.0, 7.0 / 40.0));
+  CHECK(found.objective <= (1.0 + idle_share) * round_design(held, held.scaled_design({15 * units::um, 0.0, 7 * units::um}), 1000).objective);
+}

@@ -157,7 +157,7 @@ inline ContactSettings edge_settings(const ContactTask& task) {
   return task.plane_strain ? edge_settings(task, 24, 8, 0) : edge_settings(task, 14, 5, 0.25);
 }
 inline ContactSettings fine_edge_settings(const ContactTask& task) {
-  return task.plane_strain ? edge_settings(task, 36, 10, 0) : edge_settings(task, 20, 6, 0.15);
+  return task.plane_strain ? edge_settings(task, 36, 10, 0) : edge_settings(task, 14, 5, 0.05);
 }
 
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
