@@ -322,6 +322,9 @@ class StepSearch {
     if (!is_feasible(best_) || !model_) return;
     const double most = (1.0 + idle_share) * best_.objective;
     for (const int i : stepped_) {
+      const bool is_followed =
+          std::ranges::any_of(problem_.task().links, [&](const LinkingConstraint& link) { return link.as == static_cast<std::size_t>(i); });
+      if (is_followed) continue;  // at 0 of one the other need not be 0
       Eigen::VectorXd x = best_.x;
       place(x, i, 0.0);
       if (x == best_.x || std::abs(problem_.unscaled(x, i)) > round_off * variable(i).step || analyses_ >= most_) continue;

@@ -134,8 +134,8 @@ inline std::vector<CycleCase> cycle_cases() {
 /// A mesh for edge_task() and helical_edge_task(). Elements around the edge are a third as wide as half the contact strip of 20 N/mm on the rounding, and
 /// grow from there.
 /// @param flank, across  elements, ContactMeshOptions
-/// @param middle_layer   of a helical pair [mm], ContactMeshOptions
-inline ContactSettings edge_settings(const ContactTask& task, int flank, int across, double middle_layer) {
+/// @param middle_layer, growth  of the layers of a helical pair [mm, -], ContactMeshOptions
+inline ContactSettings edge_settings(const ContactTask& task, int flank, int across, double middle_layer, double growth = 1.5) {
   const Material& m = task.material;
   ContactSettings settings;
   settings.mesh = {.flank = flank, .across = across, .finest = 0.04, .into_depth = 2.2, .end_layer = 10, .largest_layer = 10};
@@ -146,7 +146,7 @@ inline ContactSettings edge_settings(const ContactTask& task, int flank, int acr
     settings.mesh.middle_layer = middle_layer;
     settings.mesh.edge_reach = 0;
     settings.mesh.edge_blend = 0.3;
-    settings.mesh.layer_growth = 1.5;
+    settings.mesh.layer_growth = growth;
     settings.mesh.largest_layer = 2;
   }
   return settings;
@@ -157,7 +157,7 @@ inline ContactSettings edge_settings(const ContactTask& task) {
   return task.plane_strain ? edge_settings(task, 24, 8, 0) : edge_settings(task, 14, 5, 0.25);
 }
 inline ContactSettings fine_edge_settings(const ContactTask& task) {
-  return task.plane_strain ? edge_settings(task, 36, 10, 0) : edge_settings(task, 14, 5, 0.05);
+  return task.plane_strain ? edge_settings(task, 36, 10, 0) : edge_settings(task, 14, 5, 0.05, 2.2);
 }
 
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
