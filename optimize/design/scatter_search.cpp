@@ -311,8 +311,9 @@ DrawSearch::Judged round(DrawSearch& search, const DesignProblem& full, ScatterD
     for (const int scene : search.deciding(full)) deciding.insert(scene);
     if (turn > 0 && deciding.size() == known) break;  // the draws that decide there were rounded over
     DesignProblem part = reduced(full, {deciding.begin(), deciding.end()});
+    const std::int64_t cycles_before = part.cycles();
     const RoundedDesign rounded = round_design(part, exact, std::max(1, most_rounding_cycles / part.scenes()));
-    design.cycles += std::int64_t{rounded.analyses} * part.scenes();
+    design.cycles += part.cycles() - cycles_before;
     const bool settles = turn > 0 && rounded.x == design.x;
     if (settles) break;
     const DrawSearch::Judged next = search.report_all(full, rounded.x);
