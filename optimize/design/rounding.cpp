@@ -39,7 +39,6 @@ class StepSearch {
       stepped_.push_back(i);
       place(x_, i, std::round(problem.unscaled(x, i) / v.step));
     }
-    moving_ = stepped_;
     first_.resize(static_cast<std::size_t>(problem.scenes()));
     std::iota(first_.begin(), first_.end(), 0);
     if (most_ > 1 && std::isfinite(exact_objective_) && problem.task().scalarisation.empty()) {
@@ -250,7 +249,7 @@ class StepSearch {
 
   bool improve_singly(int reach) {
     std::vector<std::pair<int, int>> moves;
-    for (int i : moving_) moves.insert(moves.end(), {{i, -reach}, {i, reach}});
+    for (int i : stepped_) moves.insert(moves.end(), {{i, -reach}, {i, reach}});
     bool improved = false;
     for (std::size_t next = 0; next < moves.size();) {
       std::vector<Eigen::VectorXd> designs;
@@ -266,12 +265,12 @@ class StepSearch {
   /// Two variables at once, one of them by as many steps as the reach.
   bool improve_in_pairs(int reach) {
     std::vector<Eigen::VectorXd> designs;
-    for (std::size_t a = 0; a < moving_.size(); ++a) {
-      for (std::size_t b = a + 1; b < moving_.size(); ++b) {
+    for (std::size_t a = 0; a < stepped_.size(); ++a) {
+      for (std::size_t b = a + 1; b < stepped_.size(); ++b) {
         for (int by = -reach; by <= reach; ++by) {
           for (int with = -reach; with <= reach; ++with) {
             if (by == 0 || with == 0 || std::max(std::abs(by), std::abs(with)) < reach) continue;
-            designs.push_back(moved(moved(best_.x, moving_[a], by), moving_[b], with));
+            designs.push_back(moved(moved(best_.x, stepped_[a], by), stepped_[b], with));
           }
         }
       }
@@ -279,45 +278,7 @@ class StepSearch {
     return first_better(designs).has_value();
   }
 
-  /// A design near x that the model has at an objective of at most so much: all variables but one move by a step, singly where that helps, else in
-  /// pairs. Where none is found the last one.
-  Eigen::VectorXd brought_down(Eigen::VectorXd x, int held, double most) const {
-    constexpr int most_moves = 20;
-    Predicted least = predict(x);
-    const auto best_of = [&](const std::vector<Eigen::VectorXd>& designs) {
-      bool better = false;
-      for (const Eigen::VectorXd& design : designs) {
-        const Predicted predicted = predict(design);
-        if (!(predicted < least)) continue;
-        least = predicted;
-        x = design;
-        better = true;
-      }
-      return better;
-    };
-    for (int move = 0; move < most_moves && (least.violation > 0.0 || least.objective > most); ++move) {
-      const std::vector<Eigen::VectorXd> singles = moved_by_one(x, held);
-      if (best_of(singles)) continue;
-      std::vector<Eigen::VectorXd> pairs;
-      for (const Eigen::VectorXd& one : singles) {
-        const std::vector<Eigen::VectorXd> further = moved_by_one(one, held);
-        pairs.insert(pairs.end(), further.begin(), further.end());
-      }
-      if (!best_of(pairs)) break;
-    }
-    return x;
-  }
-  std::vector<Eigen::VectorXd> moved_by_one(const Eigen::VectorXd& x, int held) const {
-    std::vector<Eigen::VectorXd> designs;
-    for (const int i : moving_) {
-      if (i != held) designs.insert(designs.end(), {moved(x, i, -1), moved(x, i, 1)});
-    }
-    return designs;
-  }
-
-  /// What others can make up for, in steps of a variable.
-  static constexpr double few_steps = 3.0;
-  /// Sets every variable to 0 that the objective does not need where the others make up for it, all together within idle_share.
+  /// Sets every variable to 0 that the objective does not feel, all together within idle_share.
   void leave_out_idle() {
     if (!is_feasible(best_) || !model_) return;
     const double most = (1.0 + idle_share) * best_.objective;
@@ -328,19 +289,10 @@ class StepSearch {
       Eigen::VectorXd x = best_.x;
       place(x, i, 0.0);
       if (x == best_.x || std::abs(problem_.unscaled(x, i)) > round_off * variable(i).step || analyses_ >= most_) continue;
-      const double steps = std::abs(problem_.unscaled(best_.x, i) / variable(i).step);
-      if (steps <= few_steps) x = brought_down(x, i, most);
       const Predicted predicted = predict(x);
       if (predicted.violation > DesignLog::tolerance || predicted.objective > most + objective_margin_) continue;
-      const RoundedDesign with = best_;
-      take(judge(x));
-      std::erase(moving_, i);
-      // A neighbour costs little only where one scene rules it out.
-      while (scenes_rule_out() && best_.objective > most && (improve_singly(1) || improve_in_pairs(1))) {
-      }
-      if (is_feasible(best_) && best_.objective <= most) continue;
-      moving_.push_back(i);
-      take(with);
+      const RoundedDesign without = judge(x);
+      if (is_feasible(without) && without.objective <= most) take(without);
     }
     best_.analyses = analyses_;
   }
@@ -349,9 +301,8 @@ class StepSearch {
   const int most_;
   const Eigen::VectorXd exact_;
   double exact_objective_{not_given};
-  Eigen::VectorXd x_;                  ///< where the search begins
-  std::vector<int> stepped_, moving_;  ///< variables with a step, and those of them that may still move
-  std::vector<int> first_;             ///< scenes in the order they are tried
+  Eigen::VectorXd x_;                 ///< where the search begins
+  std::vector<int> stepped_, first_;  ///< variables with a step; scenes in the order they are tried
   int analyses_{0};
   RoundedDesign best_;
   std::vector<LoadedCycle> best_cycles_;            ///< of it, one per scene

@@ -20,8 +20,7 @@ struct RoundedDesign {
 /// single variables and pairs move by up to two steps.
 ///
 /// A design is not analysed where the model has it above the best by more than dear_rounding and by more than it was above any design that was analysed.
-/// At the end every variable becomes 0 that the objective does not need, the others making up for it: it may rise by idle_share in all for that. Nobody
-/// grinds a micrometre that is not felt.
+/// At the end every variable becomes 0 that the objective does not feel: by all of them together it rises by no more than idle_share.
 ///
 /// With scalarised objectives, or a budget of one analysis, there is no model: the search begins at the nearest steps and analyses every neighbour.
 /// No global search: the best of all combinations may be missed, not by much near a flat optimum.
@@ -32,7 +31,7 @@ RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int
 inline constexpr double dear_rounding = 0.01;
 
 /// Relative rise of the objective by all amounts that are left out [-]: less than an analysis knows it to.
-inline constexpr double idle_share = 2.5e-3;
+inline constexpr double idle_share = 1e-3;
 
 /// True where some variable has a step.
 bool has_steps(const DesignTask& task);
