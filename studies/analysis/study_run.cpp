@@ -250,7 +250,7 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
 
 namespace {
 
-/// A cycle that is analysed alone, without root stress: both halves of its positions side by side. Loads of the second half start from others than analyse_cycle()'s do, which
+/// A cycle without root stress, both halves of its positions side by side. In the second half loads start from others than in analyse_cycle(), which
 /// changes digits beyond the tolerance of LoadOptions.
 LoadedCycle analyse_halves(const MeshModel& model, const FlankCondition& condition, double torque) {
   std::vector<std::size_t> positions(model.positions.size());

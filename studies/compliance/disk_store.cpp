@@ -197,6 +197,7 @@ std::optional<Kept<InfluenceTableRun>> DiskStore::find(const InfluenceTableTask&
   }
   const std::lock_guard lock(notes_mutex_);
   notes_.insert(notes_.end(), notes.begin(), notes.end());
+  std::ranges::sort(notes_);  // whichever thread came first
   return run;
 }
 

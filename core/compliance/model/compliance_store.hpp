@@ -22,7 +22,7 @@ class ComplianceStore {
  public:
   virtual ~ComplianceStore() = default;
 
-  /// The run of that task, or one that tells more; empty where there is none that can be used.
+  /// The run of that task, or one that tells more; empty where there is none that can be used. May be called by several threads at a time.
   virtual std::optional<Kept<InfluenceTableRun>> find(const InfluenceTableTask& task) = 0;
   /// @param run  Factorised
   /// @return where it is kept; empty: nowhere

@@ -51,7 +51,7 @@ function cost_panel(plot, results) {
   const kept = steps.filter((step) => KEPT_STEPS.includes(step.name)).reduce((sum, step) => sum + (step.seconds ?? 0), 0);
   plot.append(facts([
     ["This run", time_text(results.seconds), "strong"],
-    is_number(optimise.evaluations) ? ["Analyses", `${fmt(optimise.evaluations, 7)}${scenes > 1 ? ` of ${scenes} scenes` : ""}, ${optimise.solver ?? ""}`] : null,
+    is_number(optimise.evaluations) ? ["Analyses", `${fmt(optimise.evaluations, 7)}${scenes > 1 ? ` of up to ${scenes} scenes` : ""}, ${optimise.solver ?? ""}`] : null,
     kept > 0.01 * results.seconds ? ["First run only", time_text(kept)] : null,
     ...resolution_facts(results),
   ]));

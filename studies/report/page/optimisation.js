@@ -88,7 +88,7 @@ function build_convergence(results, body) {
   figure(grid, {
     title: "Objective over the evaluations",
     wide: !violated,
-    caption: "All analyses of the solver; open points violate a constraint.",
+    caption: "All analyses of the solver, by the scenes that took part; open points violate a constraint.",
   }, (plot) => {
     const points = history.map((step) => ({ x: step.evaluation, y: step.objective }));
     const feasible = (i) => !(history[i].constraint_violation > 0);
