@@ -16,6 +16,9 @@ constexpr int most_fine_analyses = 40;
 /// SolverOptions::tolerance of the coarse search is no less: its optimum is a start, and differs from the fine one by more.
 constexpr double coarse_tolerance = 1e-4;
 
+/// Likewise of the finisher: 1e-5 of a range of 100 um is a thousandth of the finest step that is ground.
+constexpr double fine_tolerance = 1e-5;
+
 /// The best of the coarse optima, judged by the fine problem: feasible before infeasible, then by the objective.
 Eigen::VectorXd best_start(DesignProblem& fine, const DesignResult& coarse, const Eigen::VectorXd& coarse_best) {
   std::vector<Eigen::VectorXd> candidates{coarse_best};
@@ -129,6 +132,7 @@ void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign&
   finish.solver = left_of(options.solver, found.design);
   finish.solver.name = options.solver.finisher == "none" ? options.solver.name : options.solver.finisher;
   finish.solver.finisher = "none";
+  finish.solver.tolerance = std::max(options.solver.tolerance, fine_tolerance);
   finish.most_search_analyses = most_fine_analyses;
   const std::int64_t cycles_before = problem.cycles();
   DesignResult fine = optimise_design(problem, finish);

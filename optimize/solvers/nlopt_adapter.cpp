@@ -59,9 +59,22 @@ class Session {
   }
   bool population_collapsed() const { return population_ > 0 && close_in_a_row_ >= population_; }
 
+  /// From now on the run is over when a step is within `tolerances`, inside a line search too: slsqp's shortens a step that does not descend by
+  /// ten up to ten times, and its own test looks at whole iterations.
+  void watch_steps(const Eigen::VectorXd& tolerances) {
+    watches_steps_ = true;
+    tolerances_ = tolerances;
+  }
+  bool steps_ended() const { return steps_ended_; }
+
   double objective(const Eigen::VectorXd& x, double* gradient) {
     const Recorder::Point& point = recorder_.at(x, gradient != nullptr);
     note(x, point);
+    if (watches_steps_) {
+      steps_ended_ = last_.size() > 0 && x != last_ && ((x - last_).array().abs() <= tolerances_.array()).all();
+      if (steps_ended_) throw StopRun{};
+      last_ = x;
+    }
     if (population_ > 0 && recorder_.best_x().size() > 0) {
       const bool close = ((x - recorder_.best_x()).array().abs() <= tolerances_.array()).all();
       close_in_a_row_ = close ? close_in_a_row_ + 1 : 0;
@@ -126,6 +139,8 @@ class Session {
 
   int population_{0};  ///< 0: not watched
   int close_in_a_row_{0};
+  bool watches_steps_{false}, steps_ended_{false};
+  Eigen::VectorXd last_;  ///< the point that the method asked for last
   Eigen::VectorXd tolerances_;
 };
 
@@ -216,6 +231,7 @@ SolverEnding solve_with_nlopt(Recorder& recorder, const SolverOptions& options) 
     session.watch_population(factor * static_cast<int>(n + 1), Eigen::Map<const Eigen::VectorXd>(step_tolerances.data(), n));
   } else {
     optimiser.set_xtol_abs(step_tolerances);
+    if (code == nlopt::LD_SLSQP) session.watch_steps(Eigen::Map<const Eigen::VectorXd>(step_tolerances.data(), n));
   }
   optimiser.set_initial_step(scaled(scale, kInitialStep));
   if (code == nlopt::G_MLSL) {
@@ -241,6 +257,7 @@ SolverEnding solve_with_nlopt(Recorder& recorder, const SolverOptions& options) 
   } while (again);
   if (recorder.stop_reason().status != SolverStatus::NotRun) return recorder.stop_reason();
   if (session.population_collapsed()) return {SolverStatus::Converged, "the population has drawn together", recorder.best_x(), {}};
+  if (session.steps_ended()) return {SolverStatus::Converged, "the steps are below the tolerance", recorder.best_x(), {}};
   ending.x = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
   if (!ending.x.allFinite()) {
     ending.x.resize(0);

@@ -43,6 +43,26 @@ class Bendable final : public NonlinearProgram {
   }
 };
 
+/// |x - 0.5| + 2 |y - 0.3|, which a quadratic model cannot follow: a line search goes on shortening its step at the kink.
+class Kinked final : public NonlinearProgram {
+ public:
+  std::vector<Eigen::VectorXd> asked{};  ///< every point, in order
+
+  int variables() const override { return 2; }
+  int constraints() const override { return 0; }
+  Eigen::VectorXd lower() const override { return Eigen::VectorXd::Zero(2); }
+  Eigen::VectorXd upper() const override { return Eigen::VectorXd::Ones(2); }
+  Eigen::VectorXd start() const override { return Eigen::Vector2d(0.9, 0.8); }
+  ProgramValues evaluate(const Eigen::VectorXd& x, bool) override {
+    asked.push_back(x);
+    const Eigen::Array2d way = x.array() - Eigen::Array2d(0.5, 0.3), steepness(1.0, 2.0);
+    ProgramValues values;
+    values.objective = (steepness * way.abs()).sum();
+    values.objective_gradient = steepness * way.sign();
+    return values;
+  }
+};
+
 bool is_global(const std::string& name) {
   return name == "nlopt:crs2_lm" || name == "nlopt:isres" || name == "nlopt:direct_l" || name == "nlopt:esch" || name == "nlopt:mlsl";
 }
@@ -156,6 +176,20 @@ TEST_CASE("a progress callback that throws ends the run in order", "[optimize][s
     CHECK(result.message.find("cancelled by the engineer") != std::string::npos);
     CHECK(result.evaluations == 3);
     CHECK(result.objective <= result.history.front().objective);
+  }
+}
+
+TEST_CASE("slsqp ends with its first step below the tolerance, within a line search too", "[optimize][solver]") {
+  Kinked kinked;
+  SolverOptions options = options_for("nlopt:slsqp");
+  options.tolerance = GENERATE(1e-3, 1e-5);
+  const SolverResult result = solve(kinked, options);
+  CHECK(result.status == SolverStatus::Converged);
+  REQUIRE(kinked.asked.size() > 2);
+  for (std::size_t i = 1; i < kinked.asked.size(); ++i) {
+    const double step = (kinked.asked[i] - kinked.asked[i - 1]).lpNorm<Eigen::Infinity>();
+    CAPTURE(options.tolerance, i, step);
+    CHECK((step <= options.tolerance) == (i + 1 == kinked.asked.size()));
   }
 }
 

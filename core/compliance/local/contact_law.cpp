@@ -37,19 +37,20 @@ DepthFunction depth_function(double depth, double k) {
 
 /// What both ends of one side add, of which those that its mate does not reach are held up by the flank beyond, see load_end_support().
 FreeEnd::Softening at_ends(const FreeEnd& free_end, const ContactSide& side, const ContactSide& mate, double half_width) {
-  std::array<double, 2> distances = side.end_distances;
-  FreeEnd::Softening support{0, 0};
+  std::array<double, 2> distances = side.end_distances, overhangs{};
   for (std::size_t i = 0; i < distances.size(); ++i) {
     const double own = side.end_distances[i], mates = mate.end_distances[i];
     if (std::isinf(own) || !(own > mates)) continue;
-    const double nu = side.lateral_ratio / (1 + side.lateral_ratio);
-    const FreeEnd::Softening held = load_end_support(nu, mates, own - mates, side.depth, half_width);
-    support.value += held.value;
-    support.widening += held.widening;
-    distances[i] += own - mates;
+    overhangs[i] = own - mates;
+    distances[i] += overhangs[i];
   }
-  const FreeEnd::Softening free = free_end.at(distances, side.depth, half_width);
-  return {free.value + support.value, free.widening + support.widening};
+  FreeEnd::Softening sum = free_end.at(distances, side.depth, half_width);
+  if (overhangs == std::array<double, 2>{}) return sum;
+  const double nu = side.lateral_ratio / (1 + side.lateral_ratio);
+  const FreeEnd::Softening held = load_end_support(nu, mate.end_distances, overhangs, side.depth, half_width);
+  sum.value += held.value;
+  sum.widening += held.widening;
+  return sum;
 }
 
 }  // namespace

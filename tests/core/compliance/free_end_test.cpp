@@ -170,7 +170,7 @@ TEST_CASE("Where the mate ends first the flank beyond it holds up the load's end
       CAPTURE(overhang, depth, distance - overhang, found);
       // Model: no fit, and the spread across the contact is that of its far field: 0.06. Discretisation: 0.04. The law changes by up to 1.1 here.
       const double law =
-          end.at({distance + overhang, INFINITY}, depth, 1).value + load_end_support(nu, distance - overhang, overhang, depth, 1).value;
+          end.at({distance + overhang, INFINITY}, depth, 1).value + load_end_support(nu, {distance - overhang, 0}, {overhang, 0}, depth, 1).value;
       CHECK(law == Approx(found).margin(0.1));
     }
   }
