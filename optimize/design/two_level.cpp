@@ -58,6 +58,7 @@ void join(const DesignResult& coarse, DesignResult& fine) {
     fine.message =
         coarse.message + "; the fine level ended after " + std::to_string(most_fine_analyses) + " analyses with the best design it had met";
   }
+  fine.seconds += coarse.seconds;
   fine.evaluations += coarse.evaluations;
   fine.gradient_evaluations += coarse.gradient_evaluations;
   fine.failures += coarse.failures;

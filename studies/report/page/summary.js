@@ -13,8 +13,22 @@ const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 const COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"];
 const count_words = (count) => COUNTS[count] ?? String(count);
 
-/** "Worst peak contact stress over nine scenes: 477 → 388 MPa (−19 %)". */
+/** "No design found keeps peak contact stress to at most 1500 MPa: 8880 → 1630 MPa", of the limit that is exceeded by most; null where all are kept. */
+function exceeded_headline(optimise) {
+  const broken = constraint_rows(optimise).filter((row) => row.met === false && is_number(row.value)).map((row) => {
+    const is_above = is_number(row.max) && row.value > row.max, limit = is_above ? row.max : row.min, seen = is_above ? "value" : "least";
+    return { ...row, seen, limit, sense: is_above ? "at most" : "at least", excess: Math.abs(row[seen] - limit) / Math.abs(limit || 1) };
+  }).sort((a, b) => b.excess - a.excess);
+  if (broken.length === 0) return null;
+  const { name, unit, seen, limit, sense } = broken[0], before = record(record(record(optimise.before).constraints)[name]);
+  const from = before[seen] ?? before.value;
+  return `No design found keeps ${words(name)} to ${sense} ${fmt(limit)} ${unit}: ${is_number(from) ? `${fmt(from, 3)} → ` : ""}${fmt(broken[0][seen], 3)} ${unit}`;
+}
+
+/** "Worst peak contact stress over nine scenes: 477 → 388 MPa (−19 %)"; the limit that no design keeps, where there is one. */
 function optimise_headline(optimise) {
+  const exceeded = exceeded_headline(optimise);
+  if (exceeded) return exceeded;
   const from = record(optimise.before).objective, to = record(optimise.after).objective;
   const name = words(optimise.objective_name), unit = pretty_unit(optimise.objective_unit);
   const aggregate = aggregate_words(optimise.over);
@@ -57,7 +71,7 @@ function unloaded_headline(results) {
   return `Unloaded TE ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `: the worst of ${count_words(count)} scenes` : ""}`;
 }
 
-/** Every constraint of the optimised design: {name, value, max, min, unit, met}. */
+/** Every constraint of the optimised design: {name, value, least, max, min, unit, met}, its largest value and its least. */
 function constraint_rows(optimise) {
   return Object.entries(record(record(optimise.after).constraints)).map(([name, raw]) => {
     const { value, least = value, max, min, unit } = record(raw);
@@ -65,7 +79,7 @@ function constraint_rows(optimise) {
     const slack = (bound) => 1e-5 * Math.abs(bound);
     const above = is_number(max) && !(value <= max + slack(max)), below = is_number(min) && !(least >= min - slack(min));
     const met = is_number(value) && (is_number(max) || is_number(min)) ? !above && !below : null;
-    return { name, value, max, min, unit: pretty_unit(unit), met };
+    return { name, value, least, max, min, unit: pretty_unit(unit), met };
   });
 }
 
@@ -82,11 +96,12 @@ function draw_verdict(results, cases) {
       `${words(row.name)} ${fmt(row.value)} ${row.unit} against ${[is_number(row.min) ? `at least ${fmt(row.min)}` : null,
         is_number(row.max) ? `at most ${fmt(row.max)}` : null].filter(Boolean).join(" and ")} ${row.unit}`).join("; ")}.`));
   }
-  if (optimise.status && !/converged|success|optimal/i.test(optimise.status)) {
+  const relaxation = list(record(optimise.relaxation).words);
+  const said_below = optimise.status === "infeasible" && relaxation.length > 0;
+  if (optimise.status && !said_below && !/converged|success|optimal/i.test(optimise.status)) {
     verdict.append(el("p", { class: "banner" }, `The solver ended with “${words(optimise.status)}”`
       + `${optimise.message ? `: ${optimise.message}` : ""}.${optimise.status === "infeasible" ? "" : " The best design found is shown."}`));
   }
-  const relaxation = list(record(optimise.relaxation).words);
   if (relaxation.length > 0) {
     verdict.append(el("div", { class: "banner", id: "relaxation" }, el("ul", { class: "statements" }, ...relaxation.map((sentence) => el("li", {}, pretty_unit(sentence))))));
   }

@@ -55,8 +55,10 @@ class OptimiseRun {
         assess_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
     if (study.optimise.scatter.asked()) choose_over_draws(problem);
+    const Stopwatch clock;
     show(problem);
     if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, results_.design->exact->analysis, false), *results_.design->exact);
+    results_.steps.push_back({"before_and_after", "both designs with their errors, wide ones beside a finer mesh", clock.seconds()});
     if (results_.assessment->relaxation) state_shown_excess();
     run_.rate();
     add_unmet_by_design(problem, results_);
@@ -161,6 +163,7 @@ class OptimiseRun {
     const Cycle& cycle = results_.study.cycle;
     for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && cycle.automatic_positions; ++turn) {
       const Stopwatch clock;
+      const double seconds = found.design.seconds;
       const DesignReport& best = found.design.exact ? *found.design.exact : found.design.after;
       DesignReport shown = best;
       resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
@@ -176,7 +179,7 @@ class OptimiseRun {
       go_on(problem, options, found);
       found.fine.resolution = problem.task().resolution;
       found.fine.seconds += clock.seconds();
-      found.design.seconds += clock.seconds();
+      found.design.seconds = seconds + clock.seconds();
     }
   }
 
@@ -187,6 +190,7 @@ class OptimiseRun {
     const auto infeasible = [&] { return found.design.status == SolverStatus::Infeasible; };
     for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty() && !infeasible(); ++turn) {
       const Stopwatch clock;
+      const double seconds = found.design.seconds;
       DesignReport shown = found.design.after;
       resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
       DesignTask tighter = problem.task();
@@ -204,7 +208,7 @@ class OptimiseRun {
       problem.set_start(x.cwiseMax(0.0).cwiseMin(1.0));
       go_on(problem, options, found);
       found.fine.seconds += clock.seconds();
-      found.design.seconds += clock.seconds();
+      found.design.seconds = seconds + clock.seconds();
     }
   }
   /// Of what is asked for to spare, so that one more turn is seldom needed.

@@ -54,7 +54,7 @@ TEST_CASE("The results list steps of a run beside its effects", "[studies][effec
     steps.insert(step["name"].get<std::string>());
     CHECK(step["seconds"] >= 0.0);
   }
-  CHECK(steps == std::set<std::string>{"load_distribution", "edge_contact", "proof_of_the_optimum", "effect_sizes"});
+  CHECK(steps == std::set<std::string>{"load_distribution", "before_and_after", "edge_contact", "proof_of_the_optimum", "effect_sizes"});
 }
 
 }  // namespace flankwright::studies
