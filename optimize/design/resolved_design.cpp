@@ -14,32 +14,39 @@ struct Measures {
   std::vector<double> values, errors;  ///< per scene, outside units
 };
 
-ResolvedValue value_in(const ObjectiveTerm& term, const DesignProblem& problem, const DesignReport& report, const std::vector<ResolvedCycle>& cycles,
-                       int scene) {
-  const auto s = static_cast<std::size_t>(scene);
-  return resolved_value(term, problem.scene(report.analysis, scene), cycles[s]);
-}
+/// A report with the resolved cycles of its analysis.
+struct Resolving {
+  const DesignProblem& problem;
+  const DesignReport& report;
+  const std::vector<ResolvedCycle>& cycles;
+  const FurtherError& further_error;
 
-Measures measures_of(const Objective& minimised, const DesignProblem& problem, const DesignReport& report, const std::vector<ResolvedCycle>& cycles) {
-  Measures measures;
-  if (minimised.over_spectrum()) {  // sums of the positions' own stresses; no error is estimated
-    measures.values = problem.scene_measures(minimised, report.analysis);
-    measures.errors.assign(measures.values.size(), not_given);
+  double further(const ObjectiveTerm& term, int scene) const { return further_error ? further_error(term, scene) : not_given; }
+
+  ResolvedValue value_in(const ObjectiveTerm& term, int scene) const {
+    ResolvedValue value = resolved_value(term, problem.scene(report.analysis, scene), cycles[static_cast<std::size_t>(scene)]);
+    if (std::isnan(value.error)) value.error = further(term, scene);
+    return value;
+  }
+
+  Measures measures_of(const Objective& minimised) const {
+    Measures measures;
+    const bool over_spectrum = minimised.over_spectrum();  // sums over load cases, of the positions' own stresses
+    if (over_spectrum) measures.values = problem.scene_measures(minimised, report.analysis);
+    for (int s = 0; s < problem.scenes(); ++s) {
+      double value = 0.0, error = 0.0;
+      for (const ObjectiveTerm& term : minimised.terms) {
+        const double factor = term.weight * term.outside_factor();
+        const ResolvedValue resolved = over_spectrum ? ResolvedValue{not_given, further(term, s)} : value_in(term, s);
+        value += factor * resolved.value;
+        error += std::abs(factor) * resolved.error;
+      }
+      if (!over_spectrum) measures.values.push_back(value);
+      measures.errors.push_back(error);
+    }
     return measures;
   }
-  for (int s = 0; s < problem.scenes(); ++s) {
-    double value = 0.0, error = 0.0;
-    for (const ObjectiveTerm& term : minimised.terms) {
-      const ResolvedValue resolved = value_in(term, problem, report, cycles, s);
-      const double factor = term.weight * term.outside_factor();
-      value += factor * resolved.value;
-      error += std::abs(factor) * resolved.error;
-    }
-    measures.values.push_back(value);
-    measures.errors.push_back(error);
-  }
-  return measures;
-}
+};
 
 double combined(const Objective& minimised, const Measures& measures, double shift, const std::vector<double>& weights) {
   std::vector<double> shifted = measures.values;
@@ -56,11 +63,13 @@ ResolvedValue value_of(const Objective& minimised, const Measures& measures, con
 
 }  // namespace
 
-DesignErrors resolve_report(const DesignProblem& problem, const std::vector<ResolvedCycle>& cycles, DesignReport& report) {
+DesignErrors resolve_report(const DesignProblem& problem, const std::vector<ResolvedCycle>& cycles, DesignReport& report,
+                            const FurtherError& further_error) {
   const DesignTask& task = problem.task();
   const std::vector<double> weights = problem.scene_weights();
+  const Resolving resolving{problem, report, cycles, further_error};
   DesignErrors errors;
-  Measures measures = measures_of(task.combined_objective(), problem, report, cycles);
+  Measures measures = resolving.measures_of(task.combined_objective());
   const ResolvedValue objective = value_of(task.combined_objective(), measures, weights);
   report.objective = objective.value;
   errors.objective = objective.error;
@@ -70,7 +79,7 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
     const OutputConstraint& constraint = task.constraints[c];
     ResolvedValue nearest;
     for (const int s : problem.judged_scenes(constraint.output)) {
-      const ResolvedValue here = value_in(constraint.output, problem, report, cycles, s);
+      const ResolvedValue here = resolving.value_in(constraint.output, s);
       const bool nearer = constraint.is_least() ? here.value < nearest.value : here.value > nearest.value;
       if (nearer || std::isnan(nearest.value)) nearest = here;
     }
@@ -79,7 +88,7 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
   }
   for (std::size_t k = 0; k < task.later_objectives.size(); ++k) {
     const Objective& minimised = task.later_objectives[k];
-    const ResolvedValue later = value_of(minimised, measures_of(minimised, problem, report, cycles), weights);
+    const ResolvedValue later = value_of(minimised, resolving.measures_of(minimised), weights);
     report.later_objectives[k] = later.value;
     errors.later_objectives.push_back(later.error);
   }

@@ -42,8 +42,7 @@ StudyResults StudyRun::finish() {
   const Stopwatch clock;
   results_.study.task->run(*this);
   find_edge_contact();
-  results_.life_model = life_model(study());
-  results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
+  if (!results_.life) rate_life();
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
@@ -322,6 +321,11 @@ void StudyRun::rate() {
     loaded.rating->quadrature = quadrature;
   }
   results_.steps.push_back({"load_factors", "peaks between the positions, of the perfect pair and of parts of the conditions", clock.seconds()});
+}
+
+void StudyRun::rate_life() {
+  results_.life_model = life_model(study());
+  results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
 }
 
 void StudyRun::find_edge_contact() {

@@ -68,6 +68,9 @@ class StudyRun {
   /// Adds refined peaks with and without spikes, and the load factors that follow, to the load cases of the results.
   void rate();
 
+  /// Adds what the load cases do to life, after rate(): safeties take its load factors.
+  void rate_life();
+
  private:
   MeshModel mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress, const PairCompliance* shafts,
                  const std::vector<MeshParameter>& parameters);

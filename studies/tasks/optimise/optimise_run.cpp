@@ -10,6 +10,7 @@
 #include "core/fidelity/resolved_analysis.hpp"
 #include "optimize/design/between_positions.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
+#include "studies/tasks/optimise/life_error.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/compliance/study_compliance.hpp"
@@ -56,11 +57,12 @@ class OptimiseRun {
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
     if (study.optimise.scatter.asked()) choose_over_draws(problem);
     const Stopwatch clock;
-    show(problem);
-    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, results_.design->exact->analysis, false), *results_.design->exact);
+    const std::size_t first = add_both_designs(problem);
     results_.steps.push_back({"before_and_after", "both designs with their errors, wide ones beside a finer mesh", clock.seconds()});
-    if (results_.assessment->relaxation) state_shown_excess();
     run_.rate();
+    run_.rate_life();
+    show_what_is_resolved(problem, first);
+    if (results_.assessment->relaxation) state_shown_excess();
     add_unmet_by_design(problem, results_);
     if (results_.scatter) add_unmet_over_draws();
   }
@@ -229,20 +231,30 @@ class OptimiseRun {
     return run_.resolved(cases, with_errors);
   }
 
-  /// Adds the load cases of the designs before and after, and puts what they show into the reports.
-  void show(const DesignProblem& problem) {
+  /// Adds the load cases of the design before, and behind them those of the design after.
+  /// @returns the index of the first
+  std::size_t add_both_designs(const DesignProblem& problem) {
     const std::size_t first = results_.loaded.size();
     add_load_cases(problem, "before", results_.design->before.analysis);
-    const std::size_t between = results_.loaded.size();
     add_load_cases(problem, "after", results_.design->after.analysis);
     run_.hold_against_finer(first);
-    const auto shown = [&](std::size_t begin, std::size_t end) {
+    return first;
+  }
+
+  /// Puts what the load cases show, and how well it is known, into the reports.
+  /// @param first  the load case of the first scene before
+  void show_what_is_resolved(const DesignProblem& problem, std::size_t first) {
+    const auto resolve = [&](std::size_t begin, DesignReport& report) {
       std::vector<ResolvedCycle> cycles;
-      for (std::size_t i = begin; i < end; ++i) cycles.push_back(results_.loaded[i].resolved);
-      return cycles;
+      for (int s = 0; s < problem.scenes(); ++s) cycles.push_back(results_.loaded[begin + static_cast<std::size_t>(s)].resolved);
+      const auto life_error_in = [&](const ObjectiveTerm& term, int scene) {
+        return results_.life ? life_error(*results_.life, begin + static_cast<std::size_t>(scene), term.output) : not_given;
+      };
+      return resolve_report(problem, cycles, report, life_error_in);
     };
-    results_.before_errors = resolve_report(problem, shown(first, between), results_.design->before);
-    results_.after_errors = resolve_report(problem, shown(between, results_.loaded.size()), results_.design->after);
+    results_.before_errors = resolve(first, results_.design->before);
+    results_.after_errors = resolve(first + static_cast<std::size_t>(problem.scenes()), results_.design->after);
+    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, results_.design->exact->analysis, false), *results_.design->exact);
   }
 
   void add_load_cases(const DesignProblem& problem, const std::string& name, const DesignAnalysis& analysis) {

@@ -2,6 +2,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/drawn_scenes_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/optimise_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grinding_choices_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/life_error_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/other_flank_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/twist_compensation_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/scatter_keys_test.cpp
