@@ -39,7 +39,7 @@ std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& 
   return at_stations(pair, tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
 }
 
-/// Difference of the lead part between both ends, signed [mm].
+/// Difference of the lead part between both ends, signed [mm]: less what opens the mesh at +z.
 double linear_part(const GearPair& pair, const FlankCondition& condition, int tooth) {
   const Eigen::VectorXd ends = added(pair, lead_part(condition), face_ends(pair, condition, tooth));
   return ends[1] - ends[0];
@@ -77,12 +77,13 @@ double profile_deviation(const GearPair& pair, const FlankCondition& condition, 
 }
 
 /// dF_beta_y, by the tooth pair that counts.
-Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCondition& condition, const std::vector<MeshParameter>& parameters) {
+Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCondition& condition, const std::vector<MeshParameter>& parameters,
+                                           const ShaftMisalignment& shafts) {
   const GearPair& pair = model.pair;
   int worst = 0;
   double sign = 0.0, largest = 0.0;
   for (int tooth = 0; tooth < teeth_told_apart(condition); ++tooth) {
-    const double step = linear_part(pair, condition, tooth);
+    const double step = linear_part(pair, condition, tooth) - shafts.value;
     if (std::abs(step) <= largest) continue;
     worst = tooth;
     largest = std::abs(step);
@@ -103,15 +104,16 @@ Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCo
     const auto moved = [&](std::size_t k) { return linear_part(pair, placed_as(perturbed.meshes[k], parameter, condition), worst); };
     derivative[p] = sign * forward_difference(linear_part(pair, condition, worst), moved(0), moved(1), perturbed.step);
   }
+  if (shafts.derivative.size() > 0) derivative -= sign * shafts.derivative;
   return derivative;
 }
 
 }  // namespace
 
-IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition) {
+IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition, double shaft_misalignment) {
   IsoDeviations deviations{0.0, std::max(largest_pitch_step(condition.error.pinion), largest_pitch_step(condition.error.wheel))};
   for (int tooth = 0; tooth < teeth_told_apart(condition); ++tooth) {
-    deviations.misalignment = std::max(deviations.misalignment, std::abs(linear_part(pair, condition, tooth)));
+    deviations.misalignment = std::max(deviations.misalignment, std::abs(linear_part(pair, condition, tooth) - shaft_misalignment));
     deviations.base_pitch = std::max(deviations.base_pitch, profile_deviation(pair, condition, tooth));
   }
   return deviations;
@@ -139,9 +141,9 @@ IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffn
 }
 
 IsoGradient iso_gradient(const MeshModel& model, const FlankCondition& condition, const IsoLoadFactors& factors, const LoadedCycle& cycle,
-                         const std::vector<MeshParameter>& parameters) {
+                         const std::vector<MeshParameter>& parameters, const ShaftMisalignment& shafts) {
   IsoGradient gradient;
-  gradient.misalignment = misalignment_derivative(model, condition, parameters);
+  gradient.misalignment = misalignment_derivative(model, condition, parameters, shafts);
   const Eigen::RowVectorXd load = cycle.force_derivative / cycle.force - cycle.face_width_change;  // relative
   gradient.specific_load = factors.specific_load * load;
 

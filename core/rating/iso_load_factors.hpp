@@ -11,14 +11,16 @@ namespace flankwright {
 /// has entries.
 struct IsoDeviations {
   /// F_beta_y: linear part of the gap along the face over the common face width: helix slopes of both gears, errors and
-  /// modifications, and everything that misaligns. Crowning, end relief and running-in (y_beta = 0) are ignored.
+  /// modifications, and everything that misaligns, the shafts' f_sh under the load among it: as it comes out of their deflection, without
+  /// the factor 1.33 that the standard gives its own formula for f_sh. Crowning, end relief and running-in (y_beta = 0) are ignored.
   double misalignment{not_given};
   /// f_pe: the larger of the largest adjacent base pitch error of either gear and the profile deviation of both together
   /// between A and E at mid face (f_f instead of f_pe where that is larger, as the standard says). Errors only: deliberate
   /// profile modifications are not deviations.
   double base_pitch{not_given};
 };
-IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition);
+/// @param shaft_misalignment  f_sh, with the sign of Misalignment::mesh_misalignment, see shaft_misalignment() [mm], not NaN
+IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition, double shaft_misalignment = 0.0);
 
 /// Load distribution factors by ISO 6336-1, method C, with K_A = K_v = 1, from these deviations and the standard's own stiffness.
 struct IsoLoadFactors {
@@ -45,6 +47,12 @@ struct IsoLoadFactors {
 IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations, double pinion_torque,
                                 double face_width);
 
+/// f_sh and its derivatives with respect to the parameters.
+struct ShaftMisalignment {
+  double value{0.0};              ///< [mm]
+  Eigen::RowVectorXd derivative;  ///< 1 x m; empty: none
+};
+
 /// Derivatives of IsoLoadFactors and IsoDeviations::misalignment, 1 x m each. All else depends on errors and geometry alone. On a kink (no
 /// misalignment, equal teeth, a limit of K_Halpha) that of the one that counts.
 struct IsoGradient {
@@ -52,7 +60,8 @@ struct IsoGradient {
 };
 /// @param factors  iso_load_factors() of the condition, under some torque
 /// @param cycle    of the same condition and torque: how force and face width change with the parameters
+/// @param shafts   of the factors
 IsoGradient iso_gradient(const MeshModel& model, const FlankCondition& condition, const IsoLoadFactors& factors, const LoadedCycle& cycle,
-                         const std::vector<MeshParameter>& parameters);
+                         const std::vector<MeshParameter>& parameters, const ShaftMisalignment& shafts = {});
 
 }  // namespace flankwright

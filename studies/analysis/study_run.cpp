@@ -13,6 +13,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
+#include "core/rating/shaft_misalignment.hpp"
 #include "optimize/design/for_each_in_parallel.hpp"
 #include "studies/analysis/edge_contact_note.hpp"
 #include "studies/analysis/refine_resolution.hpp"
@@ -236,7 +237,11 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const DesignScene& scene = scenes[i];
     const MeshModel& model = results_.models[models[i]];
-    const IsoLoadFactors iso = iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition), scene.torque, model.face_width);
+    const double by_shafts = results_.shafts ? shaft_misalignment(results_.shafts->at_torque(scene.torque), model, cycles[i]) : 0.0;
+    IsoLoadFactors iso;  // not known where the shafts' loads are not
+    if (!std::isnan(by_shafts)) {
+      iso = iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition, by_shafts), scene.torque, model.face_width);
+    }
     const CycleSummary summary = shown[i].summary;
     results_.loaded.push_back(
         {scene.name, scene.torque, design, std::move(cycles[i]), std::move(shown[i]), summary, models[i], scene.condition, iso});

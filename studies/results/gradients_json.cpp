@@ -5,6 +5,7 @@
 #include "core/fidelity/cycle_quantities.hpp"
 #include "core/load/cycle/perturbed_position.hpp"
 #include "core/rating/position_gradient.hpp"
+#include "core/rating/shaft_misalignment.hpp"
 
 namespace flankwright::studies {
 
@@ -63,8 +64,8 @@ Json factors_json(const LoadRating& rating, const Outside& outside) {
           {"line_load", triple(rating.factor_gradients.line_load)}};
 }
 
-Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside) {
-  const IsoGradient iso = iso_gradient(model, loaded.condition, loaded.iso, loaded.cycle, outside.parameters());
+Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside, const ShaftMisalignment& shafts) {
+  const IsoGradient iso = iso_gradient(model, loaded.condition, loaded.iso, loaded.cycle, outside.parameters(), shafts);
   return {{"K_Hbeta", outside.row(iso.lead)},
           {"K_Halpha", outside.row(iso.profile)},
           {"K_H", outside.row(iso.combined)},
@@ -72,7 +73,8 @@ Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const
           {"specific_load_N_per_mm", outside.row(iso.specific_load)}};
 }
 
-Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside, bool full_cycle) {
+Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside, const ShaftMisalignment& shafts,
+                           bool full_cycle) {
   const CycleGradient summary = resolved_gradient(model, loaded.cycle, loaded.resolved);
   const auto tangent = [&](const CycleGradient::Root& root) {
     return root.tangent_stress.size() == 0 ? Json() : Json{{"at_30_deg_tangent_MPa", outside.row(root.tangent_stress)}};
@@ -91,7 +93,7 @@ Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, c
                {"wheel_root_stress", tangent(summary.wheel_root_stress)},
                {"peaks", loaded.rating ? located_json(*loaded.rating, outside) : Json()},
                {"load_factors", loaded.rating ? factors_json(*loaded.rating, outside) : Json()},
-               {"iso6336", iso_gradient_json(loaded, model, outside)}});
+               {"iso6336", iso_gradient_json(loaded, model, outside, shafts)}});
   return json;
 }
 
@@ -179,8 +181,8 @@ Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
   const MeshModel& model = results.models[loaded.model];
   const Outside outside(study.gradients);
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
-  Json summary = summary_gradient_json(loaded, model, outside, study.cycle.phases.empty()), cycle = Json::array(), shafts = Json::array();
-  Eigen::RowVectorXd shaft_misalignment = Eigen::RowVectorXd::Zero(loaded.cycle.force_derivative.size());
+  Json cycle = Json::array(), shafts = Json::array();
+  ShaftMisalignment by_shafts{0.0, Eigen::RowVectorXd::Zero(loaded.cycle.force_derivative.size())};
   const std::optional<ShaftPair> at_load = results.shafts ? std::optional(results.shafts->at_torque(loaded.torque)) : std::nullopt;
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     const LoadedPosition& position = loaded.cycle.positions[i];
@@ -191,15 +193,17 @@ Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
                      {"te_base_tangent_um", outside.row(position.transmission_error_derivative, units::um * cos_base_helix)},
                      {"stiffness_N_per_mm_um", outside.row(stiffness_derivative(loaded.cycle, position))},
                      {"teeth", teeth_json(model.positions[i], position, gradient, ends, outside)}});
-    if (at_load) shafts.push_back(shafts_gradient_json(*at_load, loaded, model, i, gradient, outside, shaft_misalignment));
+    if (at_load) shafts.push_back(shafts_gradient_json(*at_load, loaded, model, i, gradient, outside, by_shafts.derivative));
   }
+  by_shafts.derivative /= static_cast<double>(loaded.cycle.positions.size());
+  if (at_load) by_shafts.value = shaft_misalignment(*at_load, model, loaded.cycle);
   Json json{{"parameters", list(study.gradients, [](const GradientParameter& p) { return p.path; })},
             {"units", list(study.gradients, [](const GradientParameter& p) { return p.unit; })},
             {"normal_force_N", outside.row(loaded.cycle.force_derivative)},
-            {"summary", std::move(summary)},
+            {"summary", summary_gradient_json(loaded, model, outside, by_shafts, study.cycle.phases.empty())},
             {"cycle", std::move(cycle)}};
   if (results.shafts) {
-    json["summary"]["shaft_misalignment_um"] = outside.row(shaft_misalignment / static_cast<double>(loaded.cycle.positions.size()), units::um);
+    json["summary"]["shaft_misalignment_um"] = outside.row(by_shafts.derivative, units::um);
     json["shafts"] = std::move(shafts);
   }
   return json;

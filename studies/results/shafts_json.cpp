@@ -6,41 +6,13 @@
 #include <array>
 #include <vector>
 
+#include "core/rating/shaft_misalignment.hpp"
 #include "studies/results/governing_cases.hpp"
 #include "studies/results/unit_json.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-/// Motions of both shafts at one position under the loads there; NaN where a gear has no shaft, or there is no load distribution.
-PerGear<ShaftMotion> motions_at(const ShaftPair& shafts, const MeshModel& model, const LoadedResult& loaded, std::size_t i) {
-  PerGear<ShaftMotion> motions;
-  const LoadDistribution& load = loaded.cycle.positions[i].load;
-  if (!load.usable()) return motions;
-  const MeshPosition& at = model.positions[i];
-  const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
-  for (const Member m : {Member::Pinion, Member::Wheel}) {
-    if (shafts.has_shaft(m)) motions[m] = shafts.motion(m, at.points, forces, model.axial_offset);
-  }
-  return motions;
-}
-
-/// What both shafts together open the mesh by at +z at one position [mm]; NaN where there is no load distribution.
-double together(const ShaftPair& shafts, const LoadedResult& loaded, std::size_t i, const PerGear<ShaftMotion>& motions) {
-  if (!loaded.cycle.positions[i].load.usable()) return not_given;
-  double sum = 0.0;
-  for (const Member m : {Member::Pinion, Member::Wheel}) sum += shafts.has_shaft(m) ? motions[m].misalignment : 0.0;
-  return sum;
-}
-
-/// f_sh [mm]; NaN where some position has no load distribution.
-double mean_misalignment(const ShaftPair& shafts, const MeshModel& model, const LoadedResult& loaded) {
-  double sum = 0.0;
-  const std::size_t positions = loaded.cycle.positions.size();
-  for (std::size_t i = 0; i < positions; ++i) sum += together(shafts, loaded, i, motions_at(shafts, model, loaded, i));
-  return sum / static_cast<double>(positions);
-}
 
 /// Over which ShaftMotion::misalignment counts, with what end roundings take off [mm].
 double common_face_width(const MeshModel& model) {
@@ -78,7 +50,7 @@ std::string shaft_table(const StudyResults& results, std::size_t width) {
     if (!governs[l] || loaded.design == "before") continue;
     const MeshModel& model = results.models[loaded.model];
     const ShaftPair shafts = results.shafts->at_torque(loaded.torque);
-    const double misalignment = mean_misalignment(shafts, model, loaded);
+    const double misalignment = shaft_misalignment(shafts, model, loaded.cycle);
     const UnitState unit = shafts.state(loaded.torque, model.axial_offset);
     out += fmt::format("{:<{}}  {:>10.6g}", loaded.scene, width, in_Nm(loaded.torque));
     for (const ShaftColumn& column : shown)
@@ -98,17 +70,17 @@ void add_shaft_motion(const LoadedResult& loaded, const StudyResults& results, J
       json["shafts"].push_back(nullptr);
       continue;
     }
-    const PerGear<ShaftMotion> motions = motions_at(shafts, model, loaded, i);
+    const PerGear<ShaftMotion> motions = shaft_motions(shafts, model, loaded.cycle, i);
     Json entry{{"phase", model.positions[i].phase}};
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       entry[name_of(m)] = nullptr;
       if (!shafts.has_shaft(m)) continue;
       entry[name_of(m)] = {{"displacement_um", in_um(motions[m].displacement)}, {"misalignment_um", in_um(motions[m].misalignment)}};
     }
-    entry["mesh_misalignment_um"] = in_um(together(shafts, loaded, i, motions));
+    entry["mesh_misalignment_um"] = in_um(opened_by(shafts, motions));
     json["shafts"].push_back(std::move(entry));
   }
-  json["summary"]["shaft_misalignment_um"] = in_um(mean_misalignment(shafts, model, loaded));
+  json["summary"]["shaft_misalignment_um"] = in_um(shaft_misalignment(shafts, model, loaded.cycle));
 }
 
 }  // namespace flankwright::studies

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/contact/unloaded/transmission_error.hpp"
+#include "core/rating/shaft_misalignment.hpp"
 #include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {
@@ -82,7 +83,9 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   const MeshAt mesh_at = own ? made_at : memory_.remembering(made_at);
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
   const CycleSummary summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
-  const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, iso_deviations(model->pair, condition), torque, model->face_width);
+  const double by_shafts = nominal_.shafts ? shaft_misalignment(nominal_.shafts->at_torque(torque), *model, cycle) : 0.0;
+  const IsoDeviations deviations = iso_deviations(model->pair, condition, by_shafts);
+  const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, deviations, torque, model->face_width);
   std::vector<double> values;
   for (const CycleEntry& entry : entries_) values.push_back(entry.value(summary));
   for (const IsoOutput& output : iso_outputs) values.push_back(output.value(iso));

@@ -111,6 +111,20 @@ TEST_CASE("ISO's K_Halpha of a spur pair uses the load sharing of less than two 
   CHECK(factors.profile_limit == Approx(3 / (4 - gears.transverse_contact_ratio)).epsilon(1e-12));  // Z_eps of a spur pair
 }
 
+TEST_CASE("To ISO a mesh that its shafts open is one that is misaligned as much", "[core][load][iso]") {
+  const GearPair gears = haddad();
+  FlankCondition misaligned, slope;
+  misaligned.misalignment.mesh_misalignment = 12 * units::um;
+  slope.modification.pinion.lead_slope = 20 * units::um;
+  const double opened = iso_deviations(gears, misaligned).misalignment;
+  CHECK(iso_deviations(gears, {}, 12 * units::um).misalignment == Approx(opened).epsilon(1e-12));
+  CHECK(iso_deviations(gears, misaligned, -12 * units::um).misalignment == Approx(0).margin(1e-15));  // round-off
+  CHECK(iso_deviations(gears, misaligned, 3 * units::um).misalignment == Approx(1.25 * opened).epsilon(1e-12));
+  // The slope removes metal at +z, as what opens the mesh there does.
+  const double by_slope = iso_deviations(gears, slope).misalignment;
+  CHECK(iso_deviations(gears, slope, 5 * units::um).misalignment == Approx(by_slope + 5 * units::um).epsilon(1e-12));
+}
+
 TEST_CASE("ISO's factors change with misalignment, modifications, offset and torque as central differences say", "[core][load][iso][gradient]") {
   // Relative; step^2 of the differences, and for the offset that of its own three meshes.
   constexpr double kDifference = 1e-6;
@@ -171,4 +185,9 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
     check("K_H", gradient.combined[column], up.combined(), down.combined(), here.combined());
   }
   CHECK(gradient.misalignment[4] == 0);  // tip relief is no lead
+  // Shafts whose f_sh grows with the first parameter as the misalignment itself: all that follows from it grows twice as fast.
+  ShaftMisalignment shafts{0.0, Eigen::RowVectorXd::Unit(std::ssize(parameters), 0)};
+  const IsoGradient with_shafts = iso_gradient(model, condition, here, analyse_cycle(model, condition, torque, parameters), parameters, shafts);
+  CHECK(with_shafts.misalignment[0] == Approx(2 * gradient.misalignment[0]).epsilon(1e-12));
+  CHECK(with_shafts.lead[0] == Approx(2 * gradient.lead[0]).epsilon(1e-12));
 }

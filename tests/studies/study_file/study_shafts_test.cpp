@@ -169,6 +169,10 @@ TEST_CASE("K_Hbeta counts the deflection of the shafts, K_Halpha does not", "[st
     CHECK(here.at("K_Halpha") == 1.0);
     CHECK(here.at("K_H") == here.at("K_Hbeta"));
   }
+  // To ISO there is nothing else along the face.
+  constexpr double digits = 1e-6;  // of std::to_string()
+  CHECK(with.at("iso6336").at("F_beta_y_um").get<double>() == Approx(std::abs(opened)).epsilon(1e-9));
+  CHECK(with.at("iso6336").at("K_Hbeta").get<double>() == Approx(by_hand.at("iso6336").at("K_Hbeta").get<double>()).epsilon(digits));
 }
 
 TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft][physics]") {

@@ -142,8 +142,8 @@ TEST_CASE("The derivative by torque knows the other meshes", "[studies][gradient
   };
   const Json here = at(300, {{"analyse.gradients", R"(["load.torque"])"}}), up = at(300.5), down = at(299.5);
   constexpr double difference_error = 1e-4;  // step^2 times curvature
-  for (const char* place :
-       {"/summary/te_mean_um", "/cycle/1/te_um", "/cycle/2/te_um", "/shafts/1/mesh_misalignment_um", "/summary/shaft_misalignment_um"}) {
+  for (const char* place : {"/summary/te_mean_um", "/cycle/1/te_um", "/cycle/2/te_um", "/shafts/1/mesh_misalignment_um",
+                            "/summary/shaft_misalignment_um", "/summary/iso6336/F_beta_y_um", "/summary/iso6336/K_Hbeta"}) {
     CAPTURE(place);
     const Json::json_pointer where(place);
     const double difference = up.at(where).get<double>() - down.at(where).get<double>();

@@ -1,0 +1,29 @@
+#include "core/rating/shaft_misalignment.hpp"
+
+namespace flankwright {
+
+PerGear<ShaftMotion> shaft_motions(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle, std::size_t position) {
+  PerGear<ShaftMotion> motions;
+  const LoadDistribution& load = cycle.positions[position].load;
+  if (!load.usable()) return motions;
+  const MeshPosition& at = model.positions[position];
+  const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (shafts.has_shaft(m)) motions[m] = shafts.motion(m, at.points, forces, model.axial_offset);
+  }
+  return motions;
+}
+
+double opened_by(const ShaftPair& shafts, const PerGear<ShaftMotion>& motions) {
+  double sum = 0.0;
+  for (const Member m : {Member::Pinion, Member::Wheel}) sum += shafts.has_shaft(m) ? motions[m].misalignment : 0.0;
+  return sum;
+}
+
+double shaft_misalignment(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) sum += opened_by(shafts, shaft_motions(shafts, model, cycle, i));
+  return sum / static_cast<double>(cycle.positions.size());
+}
+
+}  // namespace flankwright

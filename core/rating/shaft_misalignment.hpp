@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/compliance/shaft/shaft_pair.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
+
+namespace flankwright {
+
+/// Motions of both shafts under the loads of one mesh position; NaN where a gear has no shaft, or there is no load distribution.
+/// @param shafts  ShaftPair::at_torque() of the load case
+PerGear<ShaftMotion> shaft_motions(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle, std::size_t position);
+
+/// What these motions together open the mesh by at +z, over the common face, as Misalignment::mesh_misalignment does [mm]; a gear without a shaft
+/// adds nothing. NaN where there is no load distribution.
+double opened_by(const ShaftPair& shafts, const PerGear<ShaftMotion>& motions);
+
+/// f_sh, the mean of opened_by() over the positions of a cycle [mm]; NaN where one of them has no load distribution.
+double shaft_misalignment(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle);
+
+}  // namespace flankwright
