@@ -29,4 +29,17 @@ inline const std::string life_strength = R"(
 contact_endurance_limit = 900
 )";
 
+/// Two loads of a spectrum, misaligned either way.
+inline const std::string life_load = R"(
+[load]
+speed = 1500
+spectrum = [{ torque = 300, hours = 10 }, { torque = 200, hours = 1000 }]
+[[scenes]]
+name = "one way"
+misalignment.mesh_misalignment = 8
+[[scenes]]
+name = "other way"
+misalignment.mesh_misalignment = -8
+)";
+
 }  // namespace flankwright::studies

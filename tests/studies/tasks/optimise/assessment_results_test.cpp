@@ -138,16 +138,7 @@ TEST_CASE("Where no design keeps the limits the excess that is said is that of t
 }
 
 TEST_CASE("Damage over a load spectrum is listed by scene, and without a unit", "[studies][assessment][life]") {
-  const StudyResults results = run_study(parse_study("task = \"optimise\"\n" + life_pair + life_strength + R"(
-[load]
-speed = 1500
-spectrum = [{ torque = 300, hours = 10 }, { torque = 200, hours = 1000 }]
-[[scenes]]
-name = "one way"
-misalignment.mesh_misalignment = 8
-[[scenes]]
-name = "other way"
-misalignment.mesh_misalignment = -8
+  const StudyResults results = run_study(parse_study("task = \"optimise\"\n" + life_pair + life_strength + life_load + R"(
 [optimise]
 objective = "contact_damage"
 [optimise.variables]

@@ -13,21 +13,12 @@ namespace flankwright::studies {
 namespace {
 
 /// A pair under two loads in two scenes, with oil; no task.
-const std::string two_loads = life_pair + life_strength + R"(
+const std::string two_loads = life_pair + life_strength + life_load + R"(
 [lubricant]
 viscosity_40 = 100
 viscosity_100 = 11
 temperature = 80
 roughness = 0.5
-[load]
-speed = 1500
-spectrum = [{ torque = 300, hours = 10 }, { torque = 200, hours = 1000 }]
-[[scenes]]
-name = "one way"
-misalignment.mesh_misalignment = 8
-[[scenes]]
-name = "other way"
-misalignment.mesh_misalignment = -8
 [pinion.modification]
 lead_crowning = 6
 tip_relief = { amount = 25, height = 2 }
