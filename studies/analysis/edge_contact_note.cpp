@@ -28,7 +28,7 @@ std::string words_of(const LoadedResult& first) {
       fmt::format("contact reaches the tip edge of the {} at {:.0f} % of {:.4g} N·m (scene \"{}\"); ", name_of(first.edge_contact->gear),
                   100.0 * share_of_torque(first), first.torque / units::newton_metre, first.scene);
   if (std::isnan(first.summary.edge_stress)) return reached + "the edge is sharp, its pressure has no bound and is not part of the contact stress";
-  return reached + fmt::format("at all of it tip edges have up to {:.4g} MPa and {:.2g} % of the force", first.summary.edge_stress,
+  return reached + fmt::format("at all of it tip edges have up to {:.4g} MPa and {:.3g} % of the force", first.summary.edge_stress,
                                100.0 * first.summary.tip_edge_share);
 }
 

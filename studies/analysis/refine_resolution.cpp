@@ -33,7 +33,7 @@ bool refine_resolution(StudyResults& results) {
   const bool is_given = mostly_by_points(worst->resolved, worst->cycle) ? !results.study.fidelity.automatic_intervals : !cycle.automatic_positions;
   if (is_given) return false;
   results.notes.push_back(
-      fmt::format("the figures of scene \"{}\" are known to {:.2g} % only, with {} intervals along a contact line and {} mesh positions",
+      fmt::format("the figures of scene \"{}\" are known to {:.3g} % only, with {} intervals along a contact line and {} mesh positions",
                   worst->scene, 100.0 * largest, quadrature.intervals, results.phases.size()));
   return false;
 }

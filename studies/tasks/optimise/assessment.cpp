@@ -176,8 +176,9 @@ std::string no_rule_in_words(const std::vector<ComparedDesign>& rules) {
     if (rule.failure.empty() && (nearest == nullptr || rule.constraint_violation < nearest->constraint_violation)) nearest = &rule;
   }
   if (nearest == nullptr) return fmt::format("None of {} designs by rules of thumb can be analysed.", rules.size());
-  return fmt::format("None of {} designs by rules of thumb keeps the constraints. The nearest, {}, exceeds one of them by {:.2g} %.", rules.size(),
-                     nearest->design.name, 100.0 * nearest->constraint_violation);
+  const double excess = 100.0 * nearest->constraint_violation;
+  return fmt::format("None of {} designs by rules of thumb keeps the constraints. The nearest, {}, exceeds one of them by {:.{}f} %.", rules.size(),
+                     nearest->design.name, excess, excess < 10.0 ? 1 : 0);
 }
 
 std::string validation_in_words(const Validation& validation, const DesignTask& task) {
