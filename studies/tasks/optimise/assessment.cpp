@@ -105,14 +105,17 @@ std::string move_in_words(const Relaxation::Move& move, const DesignTask& task) 
 
 }  // namespace
 
-Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
-                          const ProgressReport& progress) {
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
+                          const std::vector<DesignScene>& drawn, const ProgressReport& progress) {
   const Stopwatch clock;
   Assessment assessment;
   if (study.optimise.assessment.rules) {
     if (progress) progress("trying rules of thumb", 0, 1, "");
     assessment.basis = rule_basis(problem);
-    assessment.rules = compare_designs_by_two_levels(problem, rules_of_thumb(problem.task(), *assessment.basis));
+    const std::vector<NamedDesign> rules = rules_of_thumb(problem.task(), *assessment.basis);
+    const bool has_tighter_limits =
+        !std::ranges::equal(problem.task().constraints, asked.constraints, {}, &OutputConstraint::limit, &OutputConstraint::limit);
+    assessment.rules = compare_designs_by_two_levels(has_tighter_limits ? DesignProblem(asked) : problem, rules);
   }
   if (study.optimise.assessment.variants > 0.0) {
     assessment.variants = search_all_variants(problem, study.optimise.assessment.variants * design.evaluations, progress);
@@ -134,6 +137,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
     const LocalModel model(last, best.analysis.modification, parameters, design.optimality.active);
     assessment.optimum = find_optimum(last, design.optimality, model, parameters, best.variables);
     assessment.judged = last.task();
+    assessment.judged->constraints = asked.constraints;
     if (progress) progress("looking for the usual signs", 0, 1, "");
     assessment.usual = find_usual_signs(last, best);
   }
@@ -204,7 +208,8 @@ std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTa
   std::vector<std::string> words;
   constexpr double said = 0.005;  // less would be a weight of 0.00
   for (const Optimum::Scene& scene : optimum.scenes) {
-    if (std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, names_torque));
+    const bool is_given = task.over == Aggregate::Mean;  // a mean has the weights of the scenes whatever the design
+    if (!is_given && std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, names_torque));
   }
   for (const Optimum::Bound& bound : optimum.bounds) {
     const DesignVariable& v = task.variables[static_cast<std::size_t>(bound.variable)];

@@ -31,16 +31,17 @@ struct Assessment {
   std::optional<Validation> validation;  ///< none: not asked for
   std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
   std::optional<DesignTask>
-      judged;  ///< the problem of the optimum: the task, or for a list of objectives the last one under limits on those before it
+      judged;  ///< the problem of the optimum under the limits asked for: the task, or for a list of objectives the last one under limits on those before it
   std::optional<UsualSigns> usual;       ///< where the optimum asks for what is seldom ground; none where it does not
   std::optional<Relaxation> relaxation;  ///< where no design keeps the constraints; then there is no optimum
   double seconds{not_given};
 };
 
-/// @param problem  that was optimised
+/// @param problem  that was optimised; its limits may be tighter than those asked for, by what extremes between the positions exceed those at them
+/// @param asked    the task with the limits asked for, by which other designs are judged and which sentences name
 /// @param drawn    scenes to validate on; empty: none
-Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
-                          const ProgressReport& progress);
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
+                          const std::vector<DesignScene>& drawn, const ProgressReport& progress);
 
 /// What an optimum has that is seldom ground, and the best design without it with its price.
 std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& judged);
@@ -55,7 +56,7 @@ std::string no_rule_in_words(const std::vector<ComparedDesign>& rules);
 /// "Over 500 scenes drawn afresh (seed 1) the design is better in 98.2 %, ..."
 std::string validation_in_words(const Validation& validation, const DesignTask& task);
 
-/// The active conditions at the optimum, a sentence each: scenes with their weights, variables at a bound, constraints and earlier
+/// The active conditions at the optimum, a sentence each: scenes with their weights where a design decides on them, variables at a bound, constraints and earlier
 /// objectives at their limit with the gain of a step beyond; a gain below the optimum's resolution is treated as zero.
 /// @param judged  Assessment::judged
 /// A last sentence says where at least half of the variables, and two or more, lie at a bound.

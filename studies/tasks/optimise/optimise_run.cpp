@@ -52,8 +52,8 @@ class OptimiseRun {
     }
     const DesignResult& design = *results_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
-    results_.assessment = std::make_shared<const Assessment>(
-        assess_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
+    results_.assessment = std::make_shared<const Assessment>(assess_optimum(
+        study, problem, *results_.design_task, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
     if (study.optimise.scatter.asked()) choose_over_draws(problem);
     const Stopwatch clock;
