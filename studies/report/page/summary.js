@@ -13,22 +13,31 @@ const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 const COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"];
 const count_words = (count) => COUNTS[count] ?? String(count);
 
-/** "No design found keeps peak contact stress to at most 1500 MPa: 8880 → 1630 MPa", of the limit that is exceeded by most; null where all are kept. */
-function exceeded_headline(optimise) {
-  const broken = constraint_rows(optimise).filter((row) => row.met === false && is_number(row.value)).map((row) => {
+/** The limit that a design ("before", "after") exceeds by most {name, unit, seen, limit, sense, excess}, `seen` naming its largest or least value; null where it keeps all. */
+function most_exceeded(optimise, design) {
+  const broken = constraint_rows(optimise, design).filter((row) => row.met === false && is_number(row.value)).map((row) => {
     const is_above = is_number(row.max) && row.value > row.max, limit = is_above ? row.max : row.min, seen = is_above ? "value" : "least";
     return { ...row, seen, limit, sense: is_above ? "at most" : "at least", excess: Math.abs(row[seen] - limit) / Math.abs(limit || 1) };
-  }).sort((a, b) => b.excess - a.excess);
-  if (broken.length === 0) return null;
-  const { name, unit, seen, limit, sense } = broken[0], before = record(record(record(optimise.before).constraints)[name]);
-  const from = before[seen] ?? before.value;
-  return `No design found keeps ${words(name)} to ${sense} ${fmt(limit)} ${unit}: ${is_number(from) ? `${fmt(from, 3)} → ` : ""}${fmt(broken[0][seen], 3)} ${unit}`;
+  });
+  return broken.sort((a, b) => b.excess - a.excess)[0] ?? null;
 }
 
-/** "Worst peak contact stress over nine scenes: 477 → 388 MPa (−19 %)"; the limit that no design keeps, where there is one. */
+/** "peak contact stress to at most 1500 MPa: 8880 → 1630 MPa" */
+function limit_words({ name, unit, seen, limit, sense }, optimise) {
+  const figure = (design) => {
+    const found = record(record(record(optimise[design]).constraints)[name]), value = found[seen] ?? found.value;
+    return is_number(value) ? fmt(value, 3) : null;
+  };
+  return `${words(name)} to ${sense} ${fmt(limit)} ${unit}: ${[figure("before"), figure("after")].filter(Boolean).join(" → ")} ${unit}`;
+}
+
+/**
+ * "Worst peak contact stress over nine scenes: 477 → 388 MPa (−19 %)"; where the design before exceeds a limit, with what keeping it takes, and
+ * where no design keeps one, that instead.
+ */
 function optimise_headline(optimise) {
-  const exceeded = exceeded_headline(optimise);
-  if (exceeded) return exceeded;
+  const exceeded = most_exceeded(optimise, "after"), exceeded_before = most_exceeded(optimise, "before");
+  if (exceeded) return `No design found keeps ${limit_words(exceeded, optimise)}`;
   const from = record(optimise.before).objective, to = record(optimise.after).objective;
   const name = words(optimise.objective_name), unit = pretty_unit(optimise.objective_unit);
   const aggregate = aggregate_words(optimise.over);
@@ -36,10 +45,11 @@ function optimise_headline(optimise) {
   const over = count > 1 ? (aggregate ? ` over ${count_words(count)} scenes` : " in the nominal scene") : "";
   const subject = `${aggregate && count > 1 ? `${aggregate} ${name}` : capital(name)}${over}`;
   if (!is_number(from) || !is_number(to)) return `${subject} was not obtained`;
+  const kept = exceeded_before ? `, to keep ${limit_words(exceeded_before, optimise)}` : "";
   const [a, b] = [fmt(from, 3), fmt(to, 3)];
-  if (a === b) return `${subject} stays at ${b} ${unit}`;
+  if (a === b) return `${subject} stays at ${b} ${unit}${kept}`;
   const change = percent_change(from, to);
-  return `${subject}: ${a} → ${b} ${unit}${change ? ` (${change})` : ""}`;
+  return `${subject}: ${a} → ${b} ${unit}${change ? ` (${change})` : ""}${kept}`;
 }
 
 function loaded_headline(cases, results) {
@@ -71,9 +81,9 @@ function unloaded_headline(results) {
   return `Unloaded TE ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `: the worst of ${count_words(count)} scenes` : ""}`;
 }
 
-/** Every constraint of the optimised design: {name, value, least, max, min, unit, met}, its largest value and its least. */
-function constraint_rows(optimise) {
-  return Object.entries(record(record(optimise.after).constraints)).map(([name, raw]) => {
+/** Every constraint of a design: {name, value, least, max, min, unit, met}, its largest value and its least. */
+function constraint_rows(optimise, design = "after") {
+  return Object.entries(record(record(optimise[design]).constraints)).map(([name, raw]) => {
     const { value, least = value, max, min, unit } = record(raw);
     // Slack for the last digit that the results store, not for the solver.
     const slack = (bound) => 1e-5 * Math.abs(bound);
