@@ -152,7 +152,7 @@ inline ContactSettings edge_settings(const ContactTask& task, int flank, int acr
   return settings;
 }
 
-/// Helical pairs have far more layers, and therefore fewer elements in each.
+/// Helical pairs have far more layers, and therefore fewer elements in each: enough for the loads, too few for the pressure on the edge.
 inline ContactSettings edge_settings(const ContactTask& task) {
   return task.plane_strain ? edge_settings(task, 24, 8, 0) : edge_settings(task, 14, 5, 0.25);
 }

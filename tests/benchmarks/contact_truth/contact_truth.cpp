@@ -103,10 +103,12 @@ void compare_edges(const ContactCase& c, const ContactSettings& settings, const 
                 own.peak_stress(tooth));
   }
   if (!c.task.plane_strain) {
-    std::printf("\ntooth pair, z, force per mm of face N/mm: CalculiX, ours; peak MPa: CalculiX\n");
+    std::printf("\ntooth pair, z, force per mm of face N/mm: CalculiX, ours; peak MPa: CalculiX, ours, ours under CalculiX' force\n");
     for (const LayerLoad& l : outside.layers) {
-      std::printf("  %2d %8.3f .. %8.3f %9.2f %9.2f %9.0f\n", l.tooth, l.begin, l.end, l.force / (l.end - l.begin),
-                  own.mean_face_load(l.tooth, l.begin, l.end), l.peak_compression);
+      const double force = l.force / (l.end - l.begin), own_force = own.mean_face_load(l.tooth, l.begin, l.end);
+      const double under_its_force = own_force > 0.0 ? own.peak_stress(l.tooth, l.begin, l.end, force / own_force) : 0.0;
+      std::printf("  %2d %8.3f .. %8.3f %9.2f %9.2f %9.0f %9.0f %9.0f\n", l.tooth, l.begin, l.end, force, own_force, l.peak_compression,
+                  own.peak_stress(l.tooth, l.begin, l.end), under_its_force);
     }
   }
   std::fflush(stdout);

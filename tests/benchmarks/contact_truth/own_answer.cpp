@@ -76,6 +76,17 @@ double OwnAnswer::peak_stress(int tooth) const {
   return peak;
 }
 
+double OwnAnswer::peak_stress(int tooth, double begin, double end, double times) const {
+  const MeshPosition& at = model.positions.front();
+  double peak = 0;
+  for (std::size_t i = 0; i < at.points.size(); ++i) {
+    const ContactPoint& point = at.points[i];
+    if (point.tooth != tooth || point.z < begin || point.z >= end) continue;
+    peak = std::max(peak, at.laws[i].peak_pressure(times * loaded.load.line_load[static_cast<Eigen::Index>(i)]).highest.pressure);
+  }
+  return peak;
+}
+
 OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure, const PairRootStress* root_stress) {
   constexpr int intervals = 12;  // of a line; another eight move the transmission error by less than 0.1 %
   OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}},

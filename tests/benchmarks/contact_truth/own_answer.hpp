@@ -21,6 +21,8 @@ struct OwnAnswer {
   std::vector<double> root_places(Member member, int tooth) const;
   double peak_stress() const;           ///< away from tip edges [MPa]
   double peak_stress(int tooth) const;  ///< of a tooth pair, edges too [MPa]
+  /// Largest pressure of a tooth pair over a layer, edges too, if the line loads there were these times as large [MPa]; flanks without modifications.
+  double peak_stress(int tooth, double begin, double end, double times = 1.0) const;
 };
 
 /// Sharp tips are rounded by 0.002 m_n, see nearly_sharp.
