@@ -16,7 +16,7 @@ constexpr int most_fine_analyses = 40;
 /// SolverOptions::tolerance of the coarse search is no less: its optimum is a start, and differs from the fine one by more.
 constexpr double coarse_tolerance = 1e-4;
 
-/// Likewise of the finisher: 1e-5 of a range of 100 um is a thousandth of the finest step that is ground.
+/// Likewise of the finisher: 1e-5 of a range of 100 um is 1 nm, far below what can be ground.
 constexpr double fine_tolerance = 1e-5;
 
 /// The best of the coarse optima, judged by the fine problem: feasible before infeasible, then by the objective.
