@@ -54,6 +54,7 @@ const error_decimals = (error) => {
 /** "0.28 ± 0.01": a value rounded to the size of its error; without an error, at `digits` significant digits. */
 function with_error(value, error, digits = 3) {
   if (!is_number(value) || !is_number(error) || !(error > 0)) return fmt(value, digits);
+  if (Math.abs(value) >= 1e7) return `${fmt(value, digits)} ± ${fmt(error, 2)}`;  // a power of ten, as fmt() writes it
   const decimals = error_decimals(error);
   // With an error below the fifth digit the value is exact to all digits shown.
   if (error < 1e-5 * Math.abs(value)) return fmt(value, 5);

@@ -11,7 +11,8 @@ function draw_pairs(plot, rows, unit) {
   const left = Math.min(0.45 * width, 16 + 7.2 * Math.max(...rows.map((row) => row.label.length)));
   const height = row_height * rows.length + bottom;
   const room = Math.floor((left - 14) / 7), shortened = (label) => (label.length > room ? `${label.slice(0, room - 1)}…` : label);
-  const high = maximum(rows.flatMap((row) => [row.before, row.after])) || 1;
+  const end = (row) => maximum(["before", "after"].map((design) => row[design] + Math.max(0, row[`${design}_error`] || 0)));  // of the longer whisker
+  const high = maximum(rows.map(end)) || 1;
   const to_x = (value) => left + ((width - left - wide) * Math.max(0, value)) / high;
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "A bar for each scene" });
   rows.forEach((row, i) => {
@@ -27,7 +28,7 @@ function draw_pairs(plot, rows, unit) {
       }
     });
     const change = percent_change(row.before, row.after);
-    picture.append(svg("text", { x: to_x(maximum([row.before, row.after])) + 6, y: y + 13, class: row.after > row.before ? "small worse" : "small" },
+    picture.append(svg("text", { x: to_x(end(row)) + 6, y: y + 13, class: row.after > row.before ? "small worse" : "small" },
       note(row), svg("tspan", { class: "muted" }, change ? ` ${change}` : "")));
   });
   plot.append(picture);
