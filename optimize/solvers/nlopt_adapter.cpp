@@ -59,8 +59,8 @@ class Session {
   }
   bool population_collapsed() const { return population_ > 0 && close_in_a_row_ >= population_; }
 
-  /// From now on the run is over when a step is within `tolerances`, inside a line search too: slsqp's shortens a step that does not descend by
-  /// ten up to ten times, and its own test looks at whole iterations.
+  /// From now on the run is over when a step is within `tolerances`, inside a line search too. The line search of slsqp shortens a step that does
+  /// not descend up to ten times, to a tenth each time, and NLopt tests whole iterations only.
   void watch_steps(const Eigen::VectorXd& tolerances) {
     watches_steps_ = true;
     tolerances_ = tolerances;

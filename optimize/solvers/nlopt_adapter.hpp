@@ -8,7 +8,7 @@ namespace flankwright {
 /// Runs the NLopt algorithm that options.name ("nlopt:NAME") asks for [Johnson, The NLopt nonlinear-optimization
 /// package].
 ///
-/// Stops when no variable moves by more than tolerance times its range; crs2_lm and isres when as many points in a row
+/// Stops when no variable moves by more than tolerance times its range, slsqp within a line search too; crs2_lm and isres when as many points in a row
 /// as their population has lie that near to the best; esch, direct_l and mlsl at a limit only. Derivative-free methods
 /// start with steps of a tenth of the range (of max(1, |start|) where a bound is infinite). mlsl starts L-BFGS runs
 /// from random points. mma and ccsaq can stop short after an infeasible start, so they are started again from the best

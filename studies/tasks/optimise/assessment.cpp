@@ -206,9 +206,9 @@ std::string validation_in_words(const Validation& validation, const DesignTask& 
 std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& task) {
   const bool names_torque = ListedScenes(task).names_torque();
   std::vector<std::string> words;
-  constexpr double said = 0.005;  // less would be a weight of 0.00
+  constexpr double said = 0.005;                       // less would be a weight of 0.00
+  const bool is_given = task.over == Aggregate::Mean;  // a mean has the weights of the scenes whatever the design
   for (const Optimum::Scene& scene : optimum.scenes) {
-    const bool is_given = task.over == Aggregate::Mean;  // a mean has the weights of the scenes whatever the design
     if (!is_given && std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, names_torque));
   }
   for (const Optimum::Bound& bound : optimum.bounds) {

@@ -118,7 +118,7 @@ TEST_CASE("Where a helical line of contact leaves over a rounded tip edge the lo
   for (const LayerFigure& layer : figure.layers) {
     const double load = own.mean_face_load(0, layer.begin, layer.end), times = layer.force / load;
     CAPTURE(layer.begin, layer.end, load);
-    // Model: slices across the line do not see that the line ends on the edge as a bend. Up to 11 % too little before it and 13 % too much on it.
+    // Model: the line of contact bends where it meets the edge, which sections across it do not know: up to 11 % too little before and 13 % too much on it.
     CHECK(load == Approx(layer.force).epsilon(layer.end <= -0.19 ? 0.035 : 0.14));
     own_peak = std::max(own_peak, own.peak_stress(0, layer.begin, layer.end));
     peak = std::max(peak, own.peak_stress(0, layer.begin, layer.end, times));
