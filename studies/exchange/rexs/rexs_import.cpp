@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <utility>
 
 #include "core/base/units.hpp"
 #include "studies/exchange/rexs/modification_text.hpp"
@@ -204,26 +205,28 @@ UnitImport import_unit(const std::string& text, const std::string& name, const R
     all.stages.push_back({options.stage.value_or(1), import_stage(text, name, options)});
     return all;
   }
+  std::vector<StudyProblem> reasons;  // of what is left out
+  const auto leave_out = [&](const Component& stage, const std::string& value, const std::string& allowed) {
+    all.left_out.push_back(Reading::name_of(stage) + ": " + value + ", allowed is " + allowed);
+    reasons.push_back({name, stage.line, stage.line > 0 ? 1 : 0, Reading::name_of(stage), value, "allowed is " + allowed});
+  };
   for (const Relation& relation : model.relations) {
     const auto id = relation.type == "stage" ? relation.role("stage") : std::nullopt;
     const Component* stage = id ? model.find(*id) : nullptr;
-    if (stage != nullptr && stage->type != "cylindrical_stage")
-      all.left_out.push_back(Reading::name_of(*stage) + ": only cylindrical stages are modelled");
+    if (stage != nullptr && stage->type != "cylindrical_stage") leave_out(*stage, "in the file", "a cylindrical stage: others are not modelled");
   }
-  const auto meshes_of = [&](int gear) {
-    return std::ranges::count_if(stages, [&](const Relation* stage) { return stage->role("gear_1") == gear || stage->role("gear_2") == gear; });
-  };
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
-    const std::string stage = Reading::name_of(reading.in_role(*stages[i], "stage"));
-    std::string shared;
+    const Component& stage = reading.in_role(*stages[i], "stage");
+    const Component* shared = nullptr;
     for (const char* role : {"gear_1", "gear_2"}) {
-      const auto gear = stages[i]->role(role);
-      if (gear && meshes_of(*gear) > 1 && model.find(*gear) != nullptr) shared = Reading::name_of(*model.find(*gear));
+      const auto id = stages[i]->role(role);
+      const Component* gear = id ? model.find(*id) : nullptr;
+      if (gear != nullptr && meshes_of(reading, *gear) > 1) shared = gear;
     }
-    if (!shared.empty()) {
-      all.left_out.push_back(
-          fmt::format("{}: {} has several meshes, as in a planetary stage; --stage {} imports it by itself", stage, shared, number));
+    if (shared != nullptr) {
+      leave_out(stage, Reading::name_of(*shared) + " with several meshes, as in a planetary stage",
+                fmt::format("a gear with one mesh; by itself it is imported by --stage {} ({})", number, stage_in_words(reading, *stages[i])));
       continue;
     }
     RexsImportOptions of_stage = options;
@@ -232,10 +235,14 @@ UnitImport import_unit(const std::string& text, const std::string& name, const R
     try {
       all.stages.push_back({number, import_stage(text, name, of_stage)});
     } catch (const StudyErrors& errors) {
-      all.left_out.push_back(stage + ": " + errors.what());
+      all.left_out.push_back(Reading::name_of(stage) + ": " + errors.what());
+      for (const StudyProblem& problem : errors.problems()) {
+        // Stages of one unit may share what is wrong.
+        if (std::ranges::find(reasons, to_string(problem), to_string) == reasons.end()) reasons.push_back(problem);
+      }
     }
   }
-  if (all.stages.empty()) import_stage(text, name, options);  // says what the stages are
+  if (all.stages.empty()) throw StudyErrors(std::move(reasons));
   return all;
 }
 

@@ -1,6 +1,7 @@
 #include "studies/exchange/rexs/rexs_stage.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,12 @@ std::vector<const Relation*> stages_of(const Reading& reading) {
   return stages;
 }
 
+std::ptrdiff_t meshes_of(const Reading& reading, const Component& gear) {
+  return std::ranges::count_if(reading.model().relations, [&](const Relation& relation) {
+    return relation.type == "stage" && (relation.role("gear_1") == gear.id || relation.role("gear_2") == gear.id);
+  });
+}
+
 std::array<double, 3> u_axis(Reading& reading, const Component& component) {
   const auto vector = reading.numbers(&component, "u_axis_vector", Dimension::Length);
   if (!vector || vector->size() != 3) return {1.0, 0.0, 0.0};
@@ -37,21 +44,27 @@ std::string teeth_in_words(const Reading& reading, const Relation& stage, std::s
   return fmt::format("{} {} with {} teeth", gear.type, gear.id, number);
 }
 
+}  // namespace
+
+std::string stage_in_words(const Reading& reading, const Relation& relation) {
+  const Component& stage = reading.in_role(relation, "stage");
+  return fmt::format("cylindrical_stage {}{}: {}, {}", stage.id, stage.name.empty() ? "" : " \"" + stage.name + "\"",
+                     teeth_in_words(reading, relation, "gear_1"), teeth_in_words(reading, relation, "gear_2"));
+}
+
+namespace {
+
 std::string list_of(const Reading& reading, const std::vector<const Relation*>& stages) {
-  std::string lines;
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const Component& stage = reading.in_role(*stages[i], "stage");
-    lines += fmt::format("\n  --stage {}   cylindrical_stage {}{}: {}, {}", i + 1, stage.id, stage.name.empty() ? "" : " \"" + stage.name + "\"",
-                         teeth_in_words(reading, *stages[i], "gear_1"), teeth_in_words(reading, *stages[i], "gear_2"));
-  }
-  return lines;
+  std::vector<std::string> entries;
+  for (std::size_t i = 0; i < stages.size(); ++i) entries.push_back(fmt::format("--stage {} ({})", i + 1, stage_in_words(reading, *stages[i])));
+  return fmt::format("{}", fmt::join(entries, "; "));
 }
 
 const Relation& choose(const Reading& reading, std::optional<int> number) {
   const std::vector<const Relation*> stages = stages_of(reading);
   if (stages.empty()) refuse(reading.file(), 0, "model", "no relation \"stage\" of a cylindrical_stage", "a file with a cylindrical stage");
   if (!number && stages.size() == 1) return *stages.front();
-  const std::string allowed = "one of" + list_of(reading, stages);
+  const std::string allowed = "one of " + list_of(reading, stages);
   if (!number) refuse(reading.file(), 0, "--stage", "not given, and several stages", allowed);
   if (*number >= 1 && static_cast<std::size_t>(*number) <= stages.size()) return *stages[static_cast<std::size_t>(*number) - 1];
   for (const Relation* stage : stages) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/gear/gear_data.hpp"
@@ -42,6 +44,12 @@ std::array<double, 3> u_axis(Reading& reading, const Component& component);
 
 /// The relations of external cylindrical stages, in the order of --stage; of rings and planet carriers by themselves there is nothing to import.
 std::vector<const Relation*> stages_of(const Reading& reading);
+
+/// A cylindrical stage with both gears and their teeth: "cylindrical_stage 10: cylindrical_gear 6 with 19 teeth, cylindrical_gear 8 with 47 teeth".
+std::string stage_in_words(const Reading& reading, const Relation& stage);
+
+/// In how many stages of the file a gear takes part.
+std::ptrdiff_t meshes_of(const Reading& reading, const Component& gear);
 
 /// The sign of the torque on a gear by its shaft, about the gear's u axis: from the external loads of the first load case, through shafts and meshes; 0
 /// where these do not say.

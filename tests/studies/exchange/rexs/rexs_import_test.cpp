@@ -1,5 +1,6 @@
 #include "studies/exchange/rexs/rexs_import.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
@@ -76,7 +77,7 @@ constexpr double round_off = 1e-12;
 
 TEST_CASE("A file of two stages needs a choice, and gives either", "[studies][rexs][import]") {
   const std::string text = sample_file("two_stages.rexs");
-  CHECK_THAT(refusal(text), Contains("--stage 1   cylindrical_stage 10") && Contains("cylindrical_gear 7 with 21 teeth"));
+  CHECK_THAT(refusal(text), Contains("--stage 1 (cylindrical_stage 10") && Contains("cylindrical_gear 7 with 21 teeth"));
   CHECK_THAT(refusal(text, {.stage = 3}), Contains("--stage = 3") && Contains("--stage 2"));
 
   const Study first = study_of(import_text(text, {.stage = 1}));
@@ -318,4 +319,24 @@ TEST_CASE("A stage that no study can describe is refused with component and attr
   CHECK_THAT(
       refusal(replaced(good, "type=\"cylindrical_stage\"/>", "type=\"cylindrical_stage\">" + attribute("center_distance", "500") + "</component>")),
       Contains("cylindrical_stage 1: pair.centre_distance (cylindrical_stage 1 center_distance) = 500"));
+}
+
+TEST_CASE("Where no stage of a file can be imported the reasons are the error", "[studies][rexs][import][errors]") {
+  const auto refusal_of_all = [](const std::string& text) {
+    try {
+      rexs::import_unit(text, "gears.rexs", {.grid_stem = "s"});
+    } catch (const StudyErrors& errors) {
+      return std::string(errors.what());
+    }
+    return std::string();
+  };
+  // Both stages need the load; what is wrong with it is said once.
+  const std::string broken = refusal_of_all(replaced(sample_file("coaxial_unit.rexs"), "600.0</attribute>", "600,0</attribute>"));
+  CHECK_THAT(broken,
+             Contains("force_v_direction = 600,0") && Contains("a finite number with a decimal point") && !Contains("\n") && !Contains("--stage"));
+
+  const std::string planetary = refusal_of_all(sample_file("planetary.rexsj"));
+  CHECK_THAT(planetary, Contains("cylindrical_stage 11 = cylindrical_gear 55 with several meshes") && Contains("--stage 1 (cylindrical_stage 11"));
+  CHECK(std::ranges::count(planetary, '\n') == 5);  // a line for each of six stages
+  CHECK_THAT(planetary, !Contains("\\x0a"));
 }
