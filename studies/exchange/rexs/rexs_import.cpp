@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "studies/exchange/rexs/rexs_load.hpp"
 #include "studies/exchange/rexs/rexs_shaft.hpp"
 #include "studies/exchange/rexs/rexs_unit.hpp"
+#include "studies/exchange/rexs/unit_text.hpp"
 #include "studies/study_file/study_file.hpp"
 
 namespace flankwright::studies::rexs {
@@ -39,7 +41,10 @@ void check_version(Reading& reading) {
 
 class Import {
  public:
-  Import(Reading& reading, const RexsImportOptions& options) : reading_(reading), options_(options), parts_(find_stage(reading, options.stage)) {}
+  Import(Reading& reading, const RexsImportOptions& options)
+      : reading_(reading), options_(options), parts_(find_stage(reading, options.stage)), torques_(read_torques(reading, parts_)) {
+    take_flank(reading, parts_, reference().flank, reference().flank_source);
+  }
 
   ImportedStudy study() {
     check_version(reading_);
@@ -51,15 +56,14 @@ class Import {
       add_modification(read_modification(reading_, parts_[m], geometry, m, options_.slope_end), m, body);
     }
     write_materials(body);
-    const std::vector<ImportedTorque> torques = read_torques(reading_, parts_);
-    if (const auto unit = read_unit(reading_, parts_, geometry, torques)) {
+    if (const auto unit = read_unit(reading_, parts_, geometry, reference())) {
       write_unit(*unit, body);
     } else {
       for (const Member m : {Member::Pinion, Member::Wheel}) {
         if (const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width)) write_shaft(*shaft, m, body);
       }
     }
-    write_torques(torques, body);
+    write_torques(loaded_torques(), body);
     std::string not_taken = write_rest(body);
     return {head() + body.text(), std::move(grids_), reading_.warnings(), std::move(not_taken)};
   }
@@ -116,6 +120,14 @@ class Import {
     }
   }
 
+  const ImportedTorque& reference() const { return reference_of(torques_); }
+
+  std::vector<ImportedTorque> loaded_torques() const {
+    std::vector<ImportedTorque> loaded;
+    std::ranges::copy_if(torques_, std::back_inserter(loaded), [](const ImportedTorque& torque) { return torque.torque > 0.0; });
+    return loaded;
+  }
+
   void write_torques(const std::vector<ImportedTorque>& torques, StudyText& text) {
     text.table("load");
     const auto value = [](const ImportedTorque& torque) { return number_text(torque.torque / units::newton_metre); };
@@ -164,6 +176,7 @@ class Import {
   Reading& reading_;
   const RexsImportOptions& options_;
   StageParts parts_;
+  std::vector<ImportedTorque> torques_;  ///< one for each condition
   std::vector<ImportedGrid> grids_;
 };
 

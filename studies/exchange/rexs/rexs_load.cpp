@@ -1,147 +1,117 @@
 #include "studies/exchange/rexs/rexs_load.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <string>
 
-#include "core/base/units.hpp"
+#include "studies/exchange/rexs/rexs_torque_flow.hpp"
 
 namespace flankwright::studies::rexs {
 
 namespace {
 
-/// Torque on a gear about its shaft, by its size only.
-struct GearTorque {
-  double torque;
-  std::string source;
-};
+int sign_of(double torque) { return torque > 0.0 ? 1 : torque < 0.0 ? -1 : 0; }
 
-/// One condition: the model with what a load case changes.
-class Condition {
- public:
-  Condition(Reading& reading, const LoadCase* load_case) : reading_(reading), load_case_(load_case) {}
+/// A flank as the stage's data name it, seen from the pinion's datum face; nothing where they do not.
+std::optional<WorkingFlank> flank_of_word(const std::string& word, const StageParts& parts) {
+  if (word != "left" && word != "right") return std::nullopt;
+  return (word == "right") == parts[Member::Pinion].datum_at_low_z ? WorkingFlank::Right : WorkingFlank::Left;
+}
 
-  std::optional<ImportedTorque> torque_on_pinion(const StageParts& parts) {
-    // Of the stage's own data; a gear of several stages says here what it takes in this one.
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      const auto torque = number(parts[m].data, "torque", Dimension::Torque);
-      if (torque && torque->value != 0.0) return on_pinion(parts, m, {std::abs(torque->value), torque->source});
-    }
-    spread();
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      if (const auto known = gears_.find(parts[m].gear->id); known != gears_.end()) return on_pinion(parts, m, known->second);
-    }
-    return std::nullopt;
-  }
-
- private:
-  static ImportedTorque on_pinion(const StageParts& parts, Member m, const GearTorque& torque) {
+/// Size, signs and share of time. The flank only where the load case itself names it.
+ImportedTorque torque_in(const Condition& condition, const StageParts& parts) {
+  ImportedTorque found{.name = condition.name(), .load_case = condition.load_case()};
+  const auto take = [&](double torque, const std::string& source, double share) {
+    if (found.torque > 0.0 || torque == 0.0) return;
+    found.torque = std::abs(torque) * share;
+    found.source = source;
+  };
+  // Of the stage's own data first: a gear of several stages says there what it takes in this one.
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    const auto torque = condition.number(parts[m].data, "torque", Dimension::Torque);
+    if (!torque) continue;
+    found.signs.data[m] = sign_of(torque->value);
     const double share = m == Member::Pinion ? 1.0 : static_cast<double>(parts.teeth[0]) / parts.teeth[1];
-    return {.torque = torque.torque * share, .source = torque.source + (m == Member::Pinion ? "" : ", through the teeth")};
+    take(torque->value, torque->source + (m == Member::Pinion ? "" : ", through the teeth"), share);
   }
-
-  /// Of the load case, else of the model.
-  std::optional<Taken> number(const Component* component, std::string_view id, Dimension dimension) {
-    if (component == nullptr) return std::nullopt;
-    if (load_case_ != nullptr) {
-      for (const Component& varied : load_case_->components) {
-        if (varied.id != component->id) continue;
-        if (auto taken = reading_.number(&varied, id, dimension)) {
-          taken->source = Reading::name_of(*component) + " " + std::string(id);
-          return taken;
-        }
-      }
-    }
-    return reading_.number(component, id, dimension);
+  const Component& pinion = *parts[Member::Pinion].gear;
+  if (const auto torque = TorqueFlow(condition, u_axis(condition.reading(), pinion)).on(pinion, *parts.stage)) {
+    found.signs.loads = sign_of(torque->torque);
+    if (torque->has_size) take(torque->torque, torque->source, 1.0);
   }
-
-  std::optional<Taken> torque_of(const Component& load, const Component& shaft) {
-    if (auto torque = number(&load, "torque_around_u_axis", Dimension::Torque); torque && torque->value != 0.0) return torque;
-    const auto power = number(&load, "power", Dimension::Power), speed = number(&shaft, "rotational_speed", Dimension::Speed);
-    if (!power || !speed || power->value == 0.0 || speed->value == 0.0) return std::nullopt;
-    constexpr double newton_mm_per_kw = 1e6 * 30.0 / units::pi;  // at 1/min
-    return Taken{newton_mm_per_kw * power->value / speed->value, power->source + " at the speed of " + Reading::name_of(shaft)};
+  const Component* data = parts[Member::Pinion].data;
+  if (const auto flank = flank_of_word(condition.word_of_case(data, "loaded_tooth_flank"), parts)) {
+    found.flank = *flank;
+    found.flank_origin = FlankOrigin::Stated;
+    found.flank_source = Reading::name_of(*data) + " loaded_tooth_flank of " + found.name;
   }
-
-  /// A gear of several meshes, such as a sun: files do not give the torque of each mesh.
-  bool shares_torque(const Component& gear) const {
-    return std::ranges::count_if(reading_.model().relations, [&](const Relation& relation) {
-             return relation.type == "stage" && (relation.role("gear_1") == gear.id || relation.role("gear_2") == gear.id);
-           }) > 1;
+  if (condition.load_case() == nullptr) return found;
+  for (const Component& varied : condition.load_case()->components) {
+    const Component* component = condition.reading().model().find(varied.id);
+    if (component == nullptr || component->type != "gear_unit") continue;
+    // Per cent is the standard's unit: a bare number is one too.
+    if (const auto share = condition.reading().number(&varied, "operating_time_fraction", Dimension::None)) found.time_share = share->value;
   }
+  return found;
+}
 
-  /// A shaft that carries loads and gears, of whose torques one is unknown: either its gear's, or that of an output.
-  void spread_over(const Component& shaft) {
-    std::optional<Taken> load;
-    int loads = 0, silent_loads = 0;
-    for (const Component* external : reading_.related(shaft, {"external_load"})) {
-      if (const auto torque = torque_of(*external, shaft)) {
-        load = torque;
-        ++loads;
-      } else if (reading_.word(external, "transmits_torque") == "true") {
-        ++silent_loads;
-      }
-    }
-    std::vector<const Component*> unknown, known;
-    for (const Component* gear : reading_.related(shaft, {"cylindrical_gear"})) (gears_.contains(gear->id) ? known : unknown).push_back(gear);
-    if (unknown.size() != 1 || silent_loads > 0 || shares_torque(*unknown.front())) return;
-    // Two torques on a shaft balance each other whatever their signs; of three the signs would have to be known.
-    if (loads == 1 && known.empty()) gears_[unknown.front()->id] = {std::abs(load->value), load->source};
-    if (loads == 0 && known.size() == 1) gears_[unknown.front()->id] = gears_.at(known.front()->id);
+/// The flank of the reference, where its load case does not name it.
+void settle_reference(Reading& reading, const StageParts& parts, ImportedTorque& reference) {
+  if (reference.flank_origin == FlankOrigin::Stated) return;
+  const Component* data = parts[Member::Pinion].data;
+  if (const auto flank = flank_of_word(reading.word(data, "loaded_tooth_flank"), parts)) {
+    reference.flank = *flank;
+    reference.flank_origin = FlankOrigin::Stated;
+    reference.flank_source = Reading::name_of(*data) + " loaded_tooth_flank";
+  } else if (reference.signs.loads != 0) {
+    reference.flank = reference.signs.loads > 0 ? WorkingFlank::Right : WorkingFlank::Left;
+    reference.flank_origin = FlankOrigin::Loads;
+    reference.flank_source = "by the torques of external loads";
+  } else {
+    reference.flank = WorkingFlank::Right;
+    reference.flank_source = "not in the file";
   }
+}
 
-  void spread_over(const Relation& stage) {
-    const Component &one = reading_.in_role(stage, "gear_1"), &two = reading_.in_role(stage, "gear_2");
-    if (shares_torque(one) || shares_torque(two)) return;
-    const auto teeth = [&](const Component& gear) { return number(&gear, "number_of_teeth", Dimension::None); };
-    for (const auto& [from, to] : {std::pair{&one, &two}, std::pair{&two, &one}}) {
-      if (!gears_.contains(from->id) || gears_.contains(to->id)) continue;
-      const auto here = teeth(*from), there = teeth(*to);
-      if (!here || !there || here->value == 0.0) continue;
-      const GearTorque& torque = gears_.at(from->id);
-      gears_[to->id] = {std::abs(torque.torque * there->value / here->value),
-                        torque.source + ", through " + Reading::name_of(reading_.in_role(stage, "stage"))};
-    }
-  }
-
-  /// From shaft to gear to mate to shaft, until nothing more becomes known.
-  void spread() {
-    for (std::size_t before = gears_.size() + 1; before != gears_.size();) {
-      before = gears_.size();
-      for (const Component& component : reading_.model().components) {
-        if (component.type == "shaft") spread_over(component);
-      }
-      for (const Relation& relation : reading_.model().relations) {
-        if (relation.type == "stage" && relation.role("gear_1") && relation.role("gear_2")) spread_over(relation);
-      }
-    }
-  }
-
-  Reading& reading_;
-  const LoadCase* load_case_;
-  std::map<int, GearTorque> gears_;
-};
+/// The flank of another condition, where its load case does not name it.
+void settle_flank(const ImportedTorque& reference, ImportedTorque& torque) {
+  if (torque.flank_origin == FlankOrigin::Stated) return;
+  const bool changes = torque.signs.are_opposite_to(reference.signs);
+  torque.flank = changes ? opposite(reference.flank) : reference.flank;
+  torque.flank_origin = reference.flank_origin;
+  torque.flank_source = changes ? "its torque has the other sign than that of " + reference.name : reference.flank_source;
+}
 
 }  // namespace
 
+bool TorqueSigns::are_opposite_to(const TorqueSigns& other) const {
+  return data.pinion * other.data.pinion < 0 || data.wheel * other.data.wheel < 0 || loads * other.loads < 0;
+}
+
+const ImportedTorque& reference_of(const std::vector<ImportedTorque>& torques) {
+  const auto loaded = std::ranges::find_if(torques, [](const ImportedTorque& torque) { return torque.torque > 0.0; });
+  return loaded == torques.end() ? torques.front() : *loaded;
+}
+
+ImportedTorque read_torque(const Condition& condition, const StageParts& parts) {
+  ImportedTorque torque = torque_in(condition, parts);
+  settle_reference(condition.reading(), parts, torque);
+  return torque;
+}
+
 std::vector<ImportedTorque> read_torques(Reading& reading, const StageParts& parts) {
   std::vector<ImportedTorque> torques;
-  for (const LoadCase& load_case : reading.model().load_cases) {
-    auto torque = Condition(reading, &load_case).torque_on_pinion(parts);
-    if (!torque) continue;
-    torque->name = fmt::format("load case {}", load_case.id);
-    for (const Component& varied : load_case.components) {
-      const Component* component = reading.model().find(varied.id);
-      if (component == nullptr || component->type != "gear_unit") continue;
-      // Per cent is the standard's unit: a bare number is one too.
-      if (const auto share = reading.number(&varied, "operating_time_fraction", Dimension::None)) torque->time_share = share->value;
+  for (const Condition& condition : conditions_of(reading)) torques.push_back(torque_in(condition, parts));
+  reading.word(parts[Member::Wheel].data, "loaded_tooth_flank");  // that of the pinion once more
+  ImportedTorque reference = reference_of(torques);
+  settle_reference(reading, parts, reference);
+  for (ImportedTorque& torque : torques) {
+    if (torque.load_case == reference.load_case) {
+      torque = reference;
+    } else {
+      settle_flank(reference, torque);
     }
-    torques.push_back(std::move(*torque));
   }
-  if (!torques.empty()) return torques;
-  if (auto torque = Condition(reading, nullptr).torque_on_pinion(parts)) torques.push_back(std::move(*torque));
   return torques;
 }
 

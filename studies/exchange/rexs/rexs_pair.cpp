@@ -105,9 +105,7 @@ class PairReading {
     remark("pair.driver",
            pinion != wheel ? Reading::name_of(*(pinion ? parts_.gears[0] : parts_.gears[1]).data) + " is_driving_gear" : "not in the file");
     pair_.data.working_flank = parts_.working_flank;
-    remark("pair.working_flank", parts_.flank_is_given    ? Reading::name_of(*parts_.gears[0].data) + " loaded_tooth_flank"
-                                 : parts_.flank_by_torque ? "by the torques of external loads"
-                                                          : "not in the file");
+    remark("pair.working_flank", parts_.flank_source);
   }
 
   void read_gear(Member m) {

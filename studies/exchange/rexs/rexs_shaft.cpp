@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/base/units.hpp"
+#include "studies/exchange/rexs/rexs_condition.hpp"
 
 namespace flankwright::studies::rexs {
 
@@ -147,8 +148,7 @@ class ShaftReading {
     result_.remarks["gear_position"] += " u_coordinate_on_shaft, taken as mid face";
     std::vector<const Component*> carrying;
     for (const Component* load : reading_.related(shaft_, {"external_load"})) {
-      const bool has_torque = reading_.number(load, "torque_around_u_axis", Dimension::Torque).value_or(Taken{0.0, {}}).value != 0.0;
-      if (has_torque || reading_.word(load, "transmits_torque") == "true") carrying.push_back(load);
+      if (carries_torque(reading_, *load, shaft_)) carrying.push_back(load);
     }
     if (carrying.size() != 1) throw LeftOut{carrying.empty() ? "nothing says where its torque enters" : "its torque enters at several places"};
     result_.data.torque_position = required(*carrying.front(), {"u_coordinate_on_shaft"}) - start_;

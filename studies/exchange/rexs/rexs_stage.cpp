@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <utility>
 
 #include "studies/exchange/rexs/rexs_errors.hpp"
 
@@ -32,6 +32,10 @@ std::array<double, 3> u_axis(Reading& reading, const Component& component) {
   const auto vector = reading.numbers(&component, "u_axis_vector", Dimension::Length);
   if (!vector || vector->size() != 3) return {1.0, 0.0, 0.0};
   return {(*vector)[0], (*vector)[1], (*vector)[2]};
+}
+
+bool runs_against(const std::array<double, 3>& one, const std::array<double, 3>& two) {
+  return one[0] * two[0] + one[1] * two[1] + one[2] * two[2] < 0.0;
 }
 
 namespace {
@@ -95,8 +99,6 @@ const Component* gear_data(const Reading& reading, const Component& stage, const
   return nullptr;
 }
 
-bool against_z(const std::array<double, 3>& z, const std::array<double, 3>& u) { return z[0] * u[0] + z[1] * u[1] + z[2] * u[2] < 0.0; }
-
 void find_flanks(const Reading& reading, GearParts& parts, bool left) {
   for (const Relation& relation : reading.model().relations) {
     if (relation.type != "flank" || relation.role("gear") != parts.gear->id) continue;
@@ -121,8 +123,6 @@ void find_rest(Reading& reading, GearParts& parts) {
     last = step.order.value_or(0);
     parts.settings = &reading.in_role(step, "manufacturing_settings");
   }
-  const auto shafts = reading.related(*parts.gear, {"shaft"});
-  if (!shafts.empty()) parts.shaft = shafts.front();
   for (const Component* of : {parts.gear, parts.shaft}) {
     if (of == nullptr || parts.material != nullptr) continue;
     const auto materials = reading.related(*of, {"material"});
@@ -130,55 +130,9 @@ void find_rest(Reading& reading, GearParts& parts) {
   }
 }
 
-/// The first load case's torque of a load about its shaft's u axis, else the model's; 0: none.
-double first_torque(Reading& reading, const Component& load) {
-  for (const LoadCase& load_case : reading.model().load_cases) {
-    for (const Component& varied : load_case.components) {
-      if (varied.id != load.id) continue;
-      if (const auto torque = reading.number(&varied, "torque_around_u_axis", Dimension::Torque); torque && torque->value != 0.0)
-        return torque->value;
-    }
-  }
-  const auto torque = reading.number(&load, "torque_around_u_axis", Dimension::Torque);
-  return torque ? torque->value : 0.0;
-}
-
 }  // namespace
 
-int torque_sign(Reading& reading, const Component& gear) {
-  // On a shaft with a load from outside its gears get the torque as it is; on one that gets it from a gear the other gears give it on, the other way
-  // round. Both gears of a mesh get torques of the same sign.
-  const std::array<double, 3> z = u_axis(reading, gear);
-  std::map<int, int> signs;  // by gear
-  const auto gears_on = [&](const Component& shaft) { return reading.related(shaft, {"cylindrical_gear"}); };
-  for (const Component& shaft : reading.model().components) {
-    if (shaft.type != "shaft") continue;
-    for (const Component* load : reading.related(shaft, {"external_load"})) {
-      const double torque = first_torque(reading, *load) * (against_z(z, u_axis(reading, shaft)) ? -1.0 : 1.0);
-      if (torque == 0.0) continue;
-      for (const Component* on : gears_on(shaft)) signs.try_emplace(on->id, torque > 0.0 ? 1 : -1);
-    }
-  }
-  for (std::size_t known = 0; known != signs.size() && !signs.contains(gear.id);) {
-    known = signs.size();
-    for (const Relation* stage : stages_of(reading)) {
-      const auto one = stage->role("gear_1"), two = stage->role("gear_2");
-      if (!one || !two) continue;
-      for (const auto& [from, to] : {std::pair{*one, *two}, std::pair{*two, *one}}) {
-        if (!signs.contains(from) || !signs.try_emplace(to, signs.at(from)).second) continue;
-        const Component* mate = reading.model().find(to);
-        if (mate == nullptr) continue;
-        for (const Component* shaft : reading.related(*mate, {"shaft"})) {
-          for (const Component* on : gears_on(*shaft)) signs.try_emplace(on->id, -signs.at(to));
-        }
-      }
-    }
-  }
-  return signs.contains(gear.id) ? signs.at(gear.id) : 0;
-}
-
-StageParts find_stage(Reading& reading, std::optional<int> number) {
-  const Relation& relation = choose(reading, number);
+StageParts parts_of(Reading& reading, const Relation& relation) {
   StageParts parts{.stage = &reading.in_role(relation, "stage")};
   parts.gears[0].gear = &reading.in_role(relation, "gear_1");
   parts.gears[1].gear = &reading.in_role(relation, "gear_2");
@@ -190,29 +144,26 @@ StageParts find_stage(Reading& reading, std::optional<int> number) {
   const std::array<double, 3> z = u_axis(reading, *parts.gears[0].gear);
   for (GearParts& gear : parts.gears) {
     gear.data = gear_data(reading, *parts.stage, *gear.gear);
-    const bool against = against_z(z, u_axis(reading, *gear.gear));
+    const bool against = runs_against(z, u_axis(reading, *gear.gear));
     const bool positive = reading.word(gear.gear, "datum_face_orientation") == "positive";
     gear.datum_at_low_z = positive == against;
-  }
-  // Right flanks mesh with right flanks when both are seen from the same end.
-  std::string loaded = reading.word(parts.gears[0].data, "loaded_tooth_flank");
-  if (loaded == "left" || loaded == "right") {
-    parts.flank_is_given = true;
-    parts.working_flank = (loaded == "right") == parts.gears[0].datum_at_low_z ? WorkingFlank::Right : WorkingFlank::Left;
-  }
-  // In a unit of several stages the torques say which flanks work where the file does not.
-  if (!parts.flank_is_given && stages_of(reading).size() > 1) {
-    const int sign = torque_sign(reading, *parts.gears[0].gear);
-    if (sign != 0) parts.working_flank = sign > 0 ? WorkingFlank::Right : WorkingFlank::Left;
-    parts.flank_by_torque = sign != 0;
-  }
-  reading.word(parts.gears[1].data, "loaded_tooth_flank");
-  for (GearParts& gear : parts.gears) {
-    find_flanks(reading, gear, (parts.working_flank == WorkingFlank::Left) == gear.datum_at_low_z);
-    find_rest(reading, gear);
-    if (gear.shaft != nullptr) gear.shaft_against_z = against_z(z, u_axis(reading, *gear.shaft));
+    const auto shafts = reading.related(*gear.gear, {"shaft"});
+    if (!shafts.empty()) gear.shaft = shafts.front();
+    if (gear.shaft != nullptr) gear.shaft_against_z = runs_against(z, u_axis(reading, *gear.shaft));
   }
   return parts;
+}
+
+StageParts find_stage(Reading& reading, std::optional<int> number) { return parts_of(reading, choose(reading, number)); }
+
+void take_flank(Reading& reading, StageParts& parts, WorkingFlank flank, std::string source) {
+  parts.working_flank = flank;
+  parts.flank_source = std::move(source);
+  // Right flanks mesh with right flanks when both are seen from the same end.
+  for (GearParts& gear : parts.gears) {
+    find_flanks(reading, gear, (flank == WorkingFlank::Left) == gear.datum_at_low_z);
+    find_rest(reading, gear);
+  }
 }
 
 }  // namespace flankwright::studies::rexs

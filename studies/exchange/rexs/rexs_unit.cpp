@@ -7,9 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
-#include "core/compliance/shaft/unit_checks.hpp"
 #include "core/base/units.hpp"
+#include "core/compliance/shaft/unit_checks.hpp"
 
 namespace flankwright::studies::rexs {
 
@@ -19,22 +20,23 @@ using Eigen::Vector3d;
 
 class UnitReading {
  public:
-  UnitReading(Reading& reading, const StageParts& parts, const GearPair& pair) : reading_(reading), parts_(parts), pair_(pair) {
+  UnitReading(Reading& reading, const StageParts& parts, const GearPair& pair, const ImportedTorque& reference)
+      : reading_(reading), parts_(parts), pair_(pair), reference_(reference), condition_(reading, reference.load_case) {
     const std::array<double, 3> u = u_axis(reading, *parts.gears[0].gear);
     z_ = Vector3d(u[0], u[1], u[2]).normalized();
   }
 
-  ImportedUnit read(const std::vector<ImportedTorque>& torques) {
+  ImportedUnit read() {
     read_shafts();
     find_frame();
-    const bool loaded = !torques.empty() && torques.front().torque > 0.0;
-    if (loaded) result_.shafts.unit.reference_torque = torques.front().torque;
-    for (const auto& [id, shaft] : shafts_) read_loads(*reading_.model().find(id), loaded);
+    if (reference_.torque > 0.0) result_.shafts.unit.reference_torque = reference_.torque;
+    if (!reference_.name.empty()) result_.reference_remark = "of " + reference_.name;
+    for (const auto& [id, shaft] : shafts_) read_loads(*reading_.model().find(id));
     for (const Relation& relation : reading_.model().relations) {
       if (relation.type == "stage") read_mesh(relation);
     }
     for (const auto& [id, shaft] : shafts_) read_joints(id);
-    settle();
+    settle_bearings();
     const std::vector<InvalidInput> problems = find_problems(completed(), pair_);
     if (!problems.empty()) {
       throw LeftOut{fmt::format("{} = {}: allowed is {}", problems.front().field(), problems.front().value(), problems.front().allowed())};
@@ -110,30 +112,20 @@ class UnitReading {
   }
   Vector3d in_frame(const Vector3d& v) const { return {v.dot(x_), v.dot(y_), v.dot(z_)}; }
 
-  /// Of the first load case, else of the model.
-  std::optional<Taken> number(const Component& component, std::string_view id, Dimension dimension) {
-    if (!reading_.model().load_cases.empty()) {
-      for (const Component& varied : reading_.model().load_cases.front().components) {
-        if (varied.id != component.id) continue;
-        if (auto taken = reading_.number(&varied, id, dimension)) return taken;
-      }
-    }
-    return reading_.number(&component, id, dimension);
-  }
+  /// In the reference condition; 0 where the file does not say.
   double value(const Component& component, std::string_view id, Dimension dimension) {
-    const auto taken = number(component, id, dimension);
+    const auto taken = condition_.number(&component, id, dimension);
     return taken ? taken->value : 0.0;
   }
 
-  void read_loads(const Component& shaft, bool loaded) {
+  void read_loads(const Component& shaft) {
     const BareShaft& bare = shafts_.at(shaft.id);
     const Vector3d u = bare.against_z ? Vector3d(-z_) : z_;
     const Vector3d w = vector(shaft, "w_axis_vector", Vector3d::UnitZ()).normalized(), v = w.cross(u);
     for (const Component* load : reading_.related(shaft, {"external_load"})) {
       const auto place = reading_.number(load, "u_coordinate_on_shaft", Dimension::Length);
       if (!place) throw LeftOut{Reading::name_of(*load) + " has no u_coordinate_on_shaft"};
-      const double torque = value(*load, "torque_around_u_axis", Dimension::Torque);
-      if (torque != 0.0 || reading_.word(load, "transmits_torque") == "true") {
+      if (carries_torque(reading_, *load, shaft)) {
         ShaftData& on = data_of(shaft.id);
         if (!std::isnan(on.torque_position)) throw LeftOut{Reading::name_of(shaft) + ": its torque enters at several places"};
         on.torque_position = bare.place(place->value);
@@ -146,15 +138,15 @@ class UnitReading {
       const Vector3d moment =
           value(*load, "torque_around_v_axis", Dimension::Torque) * v + value(*load, "torque_around_w_axis", Dimension::Torque) * w;
       if (force.isZero() && moment.isZero()) continue;
-      if (!loaded) {
+      if (!(reference_.torque > 0.0)) {
         notes_.push_back(Reading::name_of(*load) + ": its forces are not taken, as the file has no torque that they belong to");
         continue;
       }
       result_.shafts.unit.loads.push_back({name_of_shaft(shaft.id), bare.place(place->value), in_frame(force), in_frame(moment)});
       result_.load_remarks.push_back(Reading::name_of(*load));
       if (reading_.model().load_cases.size() > 1) {
-        notes_.push_back(
-            "forces of external loads are those of the first load case; with the torque of the other cases they scale, whatever the file has there");
+        notes_.push_back("forces of external loads are those of " + reference_.name +
+                         "; with the torque of the other cases they scale, whatever the file has there");
       }
     }
   }
@@ -215,7 +207,7 @@ class UnitReading {
   }
 
   /// The axial bearing of each shaft: one with a stiffness, else the one of lowest z.
-  void settle() {
+  void settle_bearings() {
     const auto is_axial = [](const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; };
     for (const auto& [id, bare] : shafts_) {
       ShaftData& shaft = data_of(id);
@@ -246,8 +238,10 @@ class UnitReading {
   Reading& reading_;
   const StageParts& parts_;
   const GearPair& pair_;
+  const ImportedTorque& reference_;
+  Condition condition_;
   Vector3d x_{Vector3d::Zero()}, y_{Vector3d::Zero()}, z_{Vector3d::Zero()};
-  std::map<int, BareShaft> shafts_;  ///< by id
+  std::map<int, BareShaft> shafts_;    ///< by id
   std::vector<std::string> notes_;
   ImportedUnit result_;
 };
@@ -271,81 +265,15 @@ bool is_in_unit(const Reading& reading, const StageParts& parts) {
   return false;
 }
 
-void write_material(const ShaftData& shaft, StudyText& text) {
-  if (!std::isnan(shaft.material.youngs_modulus)) text.key("material.youngs_modulus", number_text(shaft.material.youngs_modulus));
-  if (!std::isnan(shaft.material.poissons_ratio)) text.key("material.poissons_ratio", number_text(shaft.material.poissons_ratio));
-}
-
 }  // namespace
 
-std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const std::vector<ImportedTorque>& torques) {
+std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const ImportedTorque& reference) {
   if (!is_in_unit(reading, parts) || stages_of(reading).size() < 2) return std::nullopt;
   try {
-    return UnitReading(reading, parts, pair).read(torques);
+    return UnitReading(reading, parts, pair, reference).read();
   } catch (const LeftOut& left_out) {
     reading.warn("the unit around the stage: not taken, " + left_out.why);
     return std::nullopt;
-  }
-}
-
-void write_unit(const ImportedUnit& imported, StudyText& text) {
-  for (const Member m : {Member::Pinion, Member::Wheel}) write_shaft({*imported.shafts.shaft[m], imported.remarks[m]}, m, text);
-  const UnitData& unit = imported.shafts.unit;
-  if (unit.reference_torque > 0.0) {
-    text.table("unit");
-    text.key("reference_torque", number_text(unit.reference_torque / units::newton_metre), "of the first load case");
-  }
-  for (std::size_t i = 0; i < unit.shafts.size(); ++i) {
-    const ShaftData& shaft = unit.shafts[i];
-    text.list_table("unit.shafts");
-    text.key("name", quoted(shaft.name), imported.shaft_remarks[i]);
-    text.key("sections", sections_text(shaft));
-    if (!shaft.bearings.empty()) text.key("bearings", bearings_text(shaft));
-    if (!std::isnan(shaft.torque_position)) text.key("torque_position", difference_text(shaft.torque_position));
-    write_material(shaft, text);
-  }
-  for (std::size_t i = 0; i < unit.meshes.size(); ++i) {
-    const UnitMesh& mesh = unit.meshes[i];
-    text.list_table("unit.meshes");
-    text.key("name", quoted(mesh.name), imported.mesh_remarks[i]);
-    for (std::size_t g = 0; g < 2; ++g) {
-      const std::string number = g == 0 ? "_1" : "_2";
-      text.key("shaft" + number, quoted(mesh.gears[g].shaft));
-      text.key("position" + number, difference_text(mesh.gears[g].position));
-      text.key("teeth" + number, std::to_string(mesh.gears[g].teeth));
-      if (mesh.gears[g].face_width > 0.0) text.key("face_width" + number, difference_text(mesh.gears[g].face_width));
-    }
-    text.key("normal_module", number_text(mesh.normal_module));
-    text.key("pressure_angle", number_text(mesh.pressure_angle / units::deg));
-    text.key("helix_angle", number_text(mesh.helix_angle / units::deg));
-    text.key("hand_1", mesh.hand == Hand::Right ? "\"right\"" : "\"left\"");
-    if (!std::isnan(mesh.centre_distance)) text.key("centre_distance", number_text(mesh.centre_distance));
-    text.key("angle", number_text(mesh.angle / units::deg), "by the shafts' support_vector");
-  }
-  for (std::size_t i = 0; i < unit.loads.size(); ++i) {
-    const UnitLoad& load = unit.loads[i];
-    text.list_table("unit.loads");
-    text.key("shaft", quoted(load.shaft), imported.load_remarks[i]);
-    text.key("position", difference_text(load.position));
-    const char* const axes[] = {"x", "y", "z"};
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      if (load.force[k] != 0.0) text.key(std::string("force_") + axes[k], number_text(load.force[k]));
-    }
-    for (Eigen::Index k = 0; k < 2; ++k) {
-      if (load.moment[k] != 0.0) text.key(std::string("moment_") + axes[k], number_text(load.moment[k] / units::newton_metre));
-    }
-  }
-  for (std::size_t i = 0; i < unit.joints.size(); ++i) {
-    const ShaftJoint& joint = unit.joints[i];
-    text.list_table("unit.joints");
-    text.key("shaft", quoted(joint.shaft), imported.joint_remarks[i]);
-    text.key("position", difference_text(joint.bearing.position));
-    text.key("outer_shaft", quoted(joint.outer_shaft));
-    text.key("outer_position", difference_text(joint.outer_position));
-    constexpr double newton_per_um = 1e3;  // [N/mm]
-    if (std::isfinite(joint.bearing.radial_stiffness)) text.key("radial_stiffness", number_text(joint.bearing.radial_stiffness / newton_per_um));
-    if (joint.bearing.axial_stiffness > 0.0) text.key("axial_stiffness", number_text(std::min(joint.bearing.axial_stiffness / newton_per_um, 1e9)));
-    if (joint.bearing.tilting_stiffness > 0.0) text.key("tilting_stiffness", number_text(joint.bearing.tilting_stiffness / units::newton_metre));
   }
 }
 

@@ -14,16 +14,14 @@ namespace flankwright::studies::rexs {
 struct ImportedUnit {
   ShaftsOfPair shafts;
   PerGear<Remarks> remarks;                ///< of the pair's shafts
-  std::vector<std::string> shaft_remarks;  ///< of the further ones, the mesh's, the loads' and the joints' remarks, one each
+  std::string reference_remark;            ///< the condition of the reference torque
+  std::vector<std::string> shaft_remarks;  ///< of the further ones, the meshes', the loads' and the joints' remarks, one each
   std::vector<std::string> mesh_remarks, load_remarks, joint_remarks;
 };
 
 /// Reads the unit around a stage where its shafts carry other gears or run in each other; nothing, and nothing said, where they do not, or have no
 /// sections. A unit that a study cannot describe is left out with a warning that says why.
-/// @param torques  on the pinion, see read_torques(); forces from outside are those of the first
-std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const std::vector<ImportedTorque>& torques);
-
-/// [pinion.shaft], [wheel.shaft] and [unit] of a study.
-void write_unit(const ImportedUnit& unit, StudyText& text);
+/// @param reference  on the pinion, see reference_of(); forces from outside are those of its condition
+std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const ImportedTorque& reference);
 
 }  // namespace flankwright::studies::rexs

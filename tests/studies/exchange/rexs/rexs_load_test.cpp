@@ -1,0 +1,92 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+
+#include "studies/exchange/rexs/rexs_import.hpp"
+#include "studies/study_file/study_file.hpp"
+#include "tests/studies/exchange/rexs/gear_train.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+using namespace flankwright::studies::gear_trains;
+
+namespace {
+
+rexs::ImportedStudy stage_of_train(const GearTrain& train, int stage) {
+  return rexs::import_stage(train.text(), "train.rexs", {.stage = stage, .grid_stem = "train"});
+}
+Study study_of_stage(const GearTrain& train, int stage) { return parse_study(stage_of_train(train, stage).text, "stage.toml"); }
+
+rexs::Attribute torque(double newton_metre) { return number("torque_around_u_axis", newton_metre, "N m"); }
+
+/// Two stages on three shafts, 19 : 71 and 23 : 67, that a load drives.
+struct TwoStages {
+  GearTrain train;
+  int input, load;
+
+  explicit TwoStages(const Attributes& attributes) {
+    const double first = reference_distance(19, 71, 3, 18), second = reference_distance(23, 67, 5, 14);
+    input = train.shaft(0, 0);
+    const int middle = train.shaft(first, 0), output = train.shaft(first, second);
+    load = train.load(input, 0, attributes);
+    train.load(output, 300, {word("transmits_torque", "true")});
+    train.stage(train.gear(input, 100, 19, 3, 18.0), train.gear(middle, 100, 71, 3, -18.0));
+    train.stage(train.gear(middle, 200, 23, 5, -14.0), train.gear(output, 200, 67, 5, 14.0));
+  }
+};
+
+/// 21, 37 and 64 teeth; the second gear is an idler.
+GearTrain idler_train(bool with_stage_data) {
+  const double first = reference_distance(21, 37, 4, 12), second = reference_distance(37, 64, 4, 12);
+  GearTrain train;
+  const int input = train.shaft(0, 0), middle = train.shaft(first, 0), output = train.shaft(first, second);
+  train.load(input, 0, {torque(300)});
+  train.load(output, 300, {word("transmits_torque", "true")});
+  const int driver = train.gear(input, 150, 21, 4, 12.0), idler = train.gear(middle, 150, 37, 4, -12.0),
+            driven = train.gear(output, 150, 64, 4, 12.0);
+  const int stage_1 = train.stage(driver, idler), stage_2 = train.stage(idler, driven);
+  if (with_stage_data) {
+    // As programs write it: all torques are positive.
+    train.stage_data(stage_1, driver, {number("torque", 300, "N m")});
+    train.stage_data(stage_2, idler, {number("torque", 300.0 * 37 / 21, "N m")});
+  }
+  return train;
+}
+
+constexpr double round_off_of_torques = 1e-12;
+
+}  // namespace
+
+TEST_CASE("An idler is driven on one flank and drives with the other", "[studies][rexs][import]") {
+  const GearTrain train = idler_train(GENERATE(false, true));
+  const Study first = study_of_stage(train, 1), second = study_of_stage(train, 2);
+  CHECK(first.torques.front() == Approx(300e3).epsilon(round_off_of_torques));
+  CHECK(second.torques.front() == Approx(300e3 * 37 / 21).epsilon(round_off_of_torques));
+  CHECK(first.pair.working_flank == WorkingFlank::Right);
+  CHECK(second.pair.working_flank == WorkingFlank::Left);
+}
+
+TEST_CASE("A power at a speed is a torque with its sign", "[studies][rexs][import][unit]") {
+  // 50 kW at -1200 / min turn the input the other way; neither load says that it transmits torque.
+  TwoStages by_power({number("power", 50, "kW")}), by_torque({torque(-50e3 / (1200 * units::pi / 30.0))});
+  by_power.train.set(by_power.input, number("rotational_speed", -1200, "1 / min"));
+  for (const int stage : {1, 2}) {
+    const Study one = study_of_stage(by_power.train, stage), other = study_of_stage(by_torque.train, stage);
+    CHECK(one.pair.working_flank == (stage == 1 ? WorkingFlank::Left : WorkingFlank::Right));
+    CHECK(one.pair.working_flank == other.pair.working_flank);
+    CHECK(one.torques.front() == Approx(other.torques.front()).epsilon(round_off_of_torques));
+    CHECK_FALSE(one.unit.empty());
+    CHECK_FALSE(other.unit.empty());
+    CHECK(one.unit.reference_torque == Approx(other.unit.reference_torque).epsilon(round_off_of_torques));
+  }
+}
+
+TEST_CASE("Forces of a unit are those of the case whose torque is the reference", "[studies][rexs][import][unit]") {
+  TwoStages file({word("transmits_torque", "true")});
+  file.train.load_case({{file.load, {torque(0), number("force_v_direction", 9000, "N")}}});
+  file.train.load_case({{file.load, {torque(400), number("force_v_direction", 300, "N")}}});
+  const Study study = study_of_stage(file.train, 1);
+  CHECK(study.unit.reference_torque == Approx(400e3).epsilon(round_off_of_torques));
+  REQUIRE(study.unit.loads.size() == 1);
+  CHECK(study.unit.loads[0].force.norm() == Approx(300.0).epsilon(round_off_of_torques));
+}
