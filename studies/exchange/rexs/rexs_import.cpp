@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -56,14 +55,19 @@ class Import {
       add_modification(read_modification(reading_, parts_[m], geometry, m, options_.slope_end), m, body);
     }
     write_materials(body);
+    std::string one_sided = grids_.empty() ? "" : "a measured grid";
     if (const auto unit = read_unit(reading_, parts_, geometry, reference())) {
       write_unit(*unit, body);
+      one_sided = "a gear unit";
     } else {
       for (const Member m : {Member::Pinion, Member::Wheel}) {
-        if (const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width)) write_shaft(*shaft, m, body);
+        const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width);
+        if (!shaft) continue;
+        write_shaft(*shaft, m, body);
+        one_sided = "a shaft";
       }
     }
-    write_torques(loaded_torques(), body);
+    write_torques(loaded_torques(one_sided), body);
     std::string not_taken = write_rest(body);
     return {head() + body.text(), std::move(grids_), reading_.warnings(), std::move(not_taken)};
   }
@@ -122,9 +126,22 @@ class Import {
 
   const ImportedTorque& reference() const { return reference_of(torques_); }
 
-  std::vector<ImportedTorque> loaded_torques() const {
+  /// The conditions that the study has: those with a torque, on flanks that it may load.
+  /// @param one_sided  what the study describes for the working flanks alone, so that no scene may load the others; empty: nothing
+  std::vector<ImportedTorque> loaded_torques(const std::string& one_sided) {
     std::vector<ImportedTorque> loaded;
-    std::ranges::copy_if(torques_, std::back_inserter(loaded), [](const ImportedTorque& torque) { return torque.torque > 0.0; });
+    if (!(reference().torque > 0.0)) return loaded;
+    for (const ImportedTorque& torque : torques_) {
+      if (!(torque.torque > 0.0)) {
+        reading_.warn(torque.name + ": left out, the file gives no torque on the pinion");
+      } else if (torque.flank != reference().flank && !one_sided.empty()) {
+        reading_.warn(
+            fmt::format("{}: left out, its {:.6g} N m load the {} flank, and {} allows the {} flank alone: analyse it in a study of its own",
+                        torque.name, torque.torque / units::newton_metre, name_of(torque.flank), one_sided, name_of(reference().flank)));
+      } else {
+        loaded.push_back(torque);
+      }
+    }
     return loaded;
   }
 
@@ -140,6 +157,7 @@ class Import {
     for (const ImportedTorque& torque : torques) {
       text.scene();
       text.key("name", quoted(torque.name));
+      if (torque.flank != reference().flank) text.key("working_flank", quoted(name_of(torque.flank)), torque.flank_source);
       text.key("load.torque", value(torque), torque.source);
       if (torque.time_share > 0.0) text.key("weight", number_text(torque.time_share), "operating_time_fraction");
     }

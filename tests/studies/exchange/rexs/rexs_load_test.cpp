@@ -2,6 +2,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/base/units.hpp"
 #include "studies/exchange/rexs/rexs_import.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/exchange/rexs/gear_train.hpp"
@@ -9,6 +10,7 @@
 using namespace flankwright;
 using namespace flankwright::studies;
 using namespace flankwright::studies::gear_trains;
+using Catch::Contains;
 
 namespace {
 
@@ -18,6 +20,20 @@ rexs::ImportedStudy stage_of_train(const GearTrain& train, int stage) {
 Study study_of_stage(const GearTrain& train, int stage) { return parse_study(stage_of_train(train, stage).text, "stage.toml"); }
 
 rexs::Attribute torque(double newton_metre) { return number("torque_around_u_axis", newton_metre, "N m"); }
+
+/// A pair of 20 and 40 teeth on shafts that nothing describes, with a load on the pinion's.
+struct PairFile {
+  GearTrain train;
+  int load, stage, data;
+
+  PairFile() {
+    const int input = train.bare_shaft(0, 0), output = train.bare_shaft(120, 0);
+    load = train.load(input, 0, {torque(400)});
+    const int pinion = train.gear(input, 100, 20, 4, 0.0), wheel = train.gear(output, 100, 40, 4, 0.0);
+    stage = train.stage(pinion, wheel);
+    data = train.stage_data(stage, pinion, {});
+  }
+};
 
 /// Two stages on three shafts, 19 : 71 and 23 : 67, that a load drives.
 struct TwoStages {
@@ -57,7 +73,72 @@ constexpr double round_off_of_torques = 1e-12;
 
 }  // namespace
 
-TEST_CASE("An idler is driven on one flank and drives with the other", "[studies][rexs][import]") {
+TEST_CASE("A load case of reversed torque is a scene on the other flank", "[studies][rexs][import]") {
+  PairFile file;
+  const auto check = [&](WorkingFlank own) {
+    const Study study = study_of_stage(file.train, 1);
+    CHECK(study.pair.working_flank == own);
+    REQUIRE(study.scenes.size() == 3);
+    CHECK_FALSE(loads_other_flanks(study, study.scenes[0]));
+    CHECK(loads_other_flanks(study, study.scenes[1]));
+    CHECK_FALSE(loads_other_flanks(study, study.scenes[2]));
+    CHECK(study.scenes[0].torques.front() == Approx(400e3).epsilon(round_off_of_torques));
+    CHECK(study.scenes[1].torques.front() == Approx(150e3).epsilon(round_off_of_torques));
+    CHECK(study.scenes[2].torques.front() == Approx(600e3).epsilon(round_off_of_torques));
+  };
+  const auto flank = [](const std::string& side) { return word("loaded_tooth_flank", side); };
+  const auto in_data = [](double newton_metre) { return number("torque", newton_metre, "N m"); };
+  SECTION("by the signs of an external load") {
+    for (const double newton_metre : {400.0, -150.0, 600.0}) file.train.load_case({{file.load, {torque(newton_metre)}}});
+    check(WorkingFlank::Right);
+    // What the model says of the flank is meant for the first case.
+    file.train.set(file.data, flank("left"));
+    check(WorkingFlank::Left);
+  }
+  SECTION("by the power of an external load") {
+    // At 1000 / min, so that 1 N m is 1000 pi / 30 W.
+    for (const double newton_metre : {400.0, -150.0, 600.0}) {
+      file.train.load_case({{file.load, {number("power", newton_metre * units::pi / 30.0, "kW")}}});
+    }
+    file.train.set(2, number("rotational_speed", 1000, "1 / min"));
+    check(WorkingFlank::Right);
+  }
+  SECTION("by the signs of the stage's data") {
+    for (const double newton_metre : {400.0, -150.0, 600.0}) file.train.load_case({{file.data, {in_data(newton_metre)}}});
+    check(WorkingFlank::Right);
+  }
+  SECTION("by the loaded flank of the load case") {
+    file.train.load_case({{file.data, {in_data(400), flank("left")}}});
+    file.train.load_case({{file.data, {in_data(150), flank("right")}}});
+    file.train.load_case({{file.data, {in_data(600)}}});
+    check(WorkingFlank::Left);
+  }
+}
+
+TEST_CASE("A reversed case of a unit is left out and named", "[studies][rexs][import][unit]") {
+  TwoStages file({word("transmits_torque", "true")});
+  for (const double newton_metre : {400.0, -150.0, 600.0}) file.train.load_case({{file.load, {torque(newton_metre)}}});
+  for (const int stage : {1, 2}) {
+    const rexs::ImportedStudy imported = stage_of_train(file.train, stage);
+    const Study study = parse_study(imported.text, "stage.toml");
+    CHECK_FALSE(study.unit.empty());
+    REQUIRE(study.scenes.size() == 2);
+    CHECK(study.scenes[1].name == "load case 3");
+    REQUIRE(imported.warnings.size() == 1);
+    CHECK_THAT(imported.warnings.front(), Contains("load case 2: left out") && Contains("a gear unit"));
+  }
+}
+
+TEST_CASE("A load case without torque is left out and named", "[studies][rexs][import]") {
+  PairFile file;
+  for (const double newton_metre : {0.0, 400.0, 600.0}) file.train.load_case({{file.load, {torque(newton_metre)}}});
+  const rexs::ImportedStudy imported = stage_of_train(file.train, 1);
+  CHECK(parse_study(imported.text, "stage.toml").scenes.size() == 2);
+  REQUIRE(imported.warnings.size() == 1);
+  CHECK_THAT(imported.warnings.front(), Contains("load case 1: left out"));
+}
+
+TEST_CASE("An idler is driven on one flank and drives with the other", "[studies][rexs][import][unit]") {
   const GearTrain train = idler_train(GENERATE(false, true));
   const Study first = study_of_stage(train, 1), second = study_of_stage(train, 2);
   CHECK(first.torques.front() == Approx(300e3).epsilon(round_off_of_torques));
