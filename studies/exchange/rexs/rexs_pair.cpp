@@ -13,21 +13,14 @@ namespace flankwright::studies::rexs {
 
 namespace {
 
-constexpr double same = 1e-9;  ///< two gears of a stage agree where |a - b| <= same * (1 + |a|)
-
 constexpr double deburred_edge = 0.05;  ///< radius of a chamfer's edge that the format does not have, in normal modules
-
-bool agree(double a, double b) { return std::abs(a - b) <= same * (1.0 + std::abs(a)); }
 
 class PairReading {
  public:
   PairReading(Reading& reading, const StageParts& parts) : reading_(reading), parts_(parts) {}
 
   ImportedPair read() {
-    PairData& data = pair_.data;
-    data.normal_module = required_of_both("normal_module", "pair.normal_module");
-    read_pressure_angle();
-    read_helix();
+    take_mesh(read_mesh(reading_, parts_));
     read_stage();
     for (const Member m : {Member::Pinion, Member::Wheel}) read_gear(m);
     return std::move(pair_);
@@ -48,54 +41,17 @@ class PairReading {
     return *taken;
   }
 
-  /// A length that both gears state alike; one of them may be silent.
-  double required_of_both(std::string_view id, const std::string& key) {
-    const auto of_pinion = number(&gear(Member::Pinion), id, Dimension::Length), of_wheel = number(&gear(Member::Wheel), id, Dimension::Length);
-    if (!of_pinion && !of_wheel) required(gear(Member::Pinion), id, Dimension::Length);
-    if (of_pinion && of_wheel && !agree(of_pinion->value, of_wheel->value)) {
-      reading_.refuse_attribute(gear(Member::Wheel), id, number_text(of_wheel->value), "that of the mate, " + number_text(of_pinion->value));
-    }
-    const Taken& taken = of_pinion ? *of_pinion : *of_wheel;
-    remark(key, taken.source);
-    return taken.value;
-  }
-
-  void read_pressure_angle() {
-    std::optional<Taken> found;
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      for (const Component* at : {parts_[m].flank, parts_[m].gear, parts_[m].tool}) {
-        const auto angle = number(at, "normal_pressure_angle", Dimension::Angle);
-        if (angle && found && !agree(angle->value, found->value)) {
-          reading_.refuse_attribute(*at, "normal_pressure_angle", number_text(angle->value / units::deg),
-                                    number_text(found->value / units::deg) + " deg, as " + found->source + " says");
-        }
-        if (!found) found = angle;
-      }
-    }
-    if (found) pair_.data.pressure_angle = found->value;
-    remark("pair.pressure_angle", found ? found->source : "not in the file");
-  }
-
-  void read_helix() {
-    const Component &pinion = gear(Member::Pinion), &wheel = gear(Member::Wheel);
-    constexpr std::string_view id = "helix_angle_reference_diameter";
-    const auto of_pinion = number(&pinion, id, Dimension::Angle), of_wheel = number(&wheel, id, Dimension::Angle);
-    if (of_pinion && of_wheel && !agree(of_pinion->value, -of_wheel->value)) {
-      reading_.refuse_attribute(wheel, id, number_text(of_wheel->value / units::deg),
-                                number_text(-of_pinion->value / units::deg) + " deg, opposite to the mate's: axes are parallel");
-    }
-    const double beta = of_pinion ? of_pinion->value : of_wheel ? -of_wheel->value : 0.0;
-    pair_.data.helix_angle = std::abs(beta);
-    pair_.data.pinion_hand = beta < 0.0 ? Hand::Left : Hand::Right;
-    remark("pair.helix_angle", of_pinion ? of_pinion->source : of_wheel ? of_wheel->source : "not in the file: spur");
-    remark("pinion.hand", beta == 0.0 ? "of no meaning for spur gears" : "positive helix angles are right-handed");
+  void take_mesh(const ImportedMesh& mesh) {
+    PairData& data = pair_.data;
+    data.normal_module = mesh.normal_module;
+    data.pressure_angle = mesh.pressure_angle;
+    data.helix_angle = mesh.helix_angle;
+    data.pinion_hand = mesh.pinion_hand;
+    data.centre_distance = mesh.centre_distance;
+    for (const auto& [name, source] : mesh.remarks) remark(name == "pinion_hand" ? "pinion.hand" : "pair." + name, source);
   }
 
   void read_stage() {
-    if (const auto distance = number(parts_.stage, "center_distance", Dimension::Length)) {
-      pair_.data.centre_distance = distance->value;
-      remark("pair.centre_distance", distance->source);
-    }
     const auto drives = [&](Member m) {
       const std::string word = reading_.word(parts_[m].data, "is_driving_gear");
       return word == "true" || word == "True" || word == "1";

@@ -1,15 +1,9 @@
 #pragma once
 
-#include <map>
-#include <string>
-
-#include "studies/exchange/rexs/rexs_stage.hpp"
+#include "studies/exchange/rexs/rexs_mesh.hpp"
 #include "studies/exchange/rexs/study_text.hpp"
 
 namespace flankwright::studies::rexs {
-
-/// Where a value came from, or why it is none of the file's, by key of the study.
-using Remarks = std::map<std::string, std::string>;
 
 /// Macro-geometry of a stage.
 struct ImportedPair {

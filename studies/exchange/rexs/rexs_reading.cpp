@@ -11,6 +11,11 @@
 
 namespace flankwright::studies::rexs {
 
+bool agree(double a, double b) {
+  constexpr double same = 1e-9;
+  return std::abs(a - b) <= same * (1.0 + std::abs(a));
+}
+
 void Reading::warn(std::string text) {
   if (std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(std::move(text));
 }

@@ -17,6 +17,9 @@ struct Taken {
   std::string source;
 };
 
+/// Whether two statements of a file are the same: |a - b| <= 1e-9 (1 + |a|), as digits and units leave it.
+bool agree(double a, double b);
+
 /// Reads attributes out of a model, keeps a record of what was read, and collects what is to be said about the rest.
 class Reading {
  public:

@@ -11,6 +11,7 @@
 
 #include "core/base/units.hpp"
 #include "core/compliance/shaft/unit_checks.hpp"
+#include "studies/study/study_errors.hpp"
 
 namespace flankwright::studies::rexs {
 
@@ -33,7 +34,7 @@ class UnitReading {
     if (!reference_.name.empty()) result_.reference_remark = "of " + reference_.name;
     for (const auto& [id, shaft] : shafts_) read_loads(*reading_.model().find(id));
     for (const Relation& relation : reading_.model().relations) {
-      if (relation.type == "stage") read_mesh(relation);
+      if (relation.type == "stage") add_mesh(relation);
     }
     for (const auto& [id, shaft] : shafts_) read_joints(id);
     settle_bearings();
@@ -151,47 +152,50 @@ class UnitReading {
     }
   }
 
-  void read_mesh(const Relation& relation) {
-    const auto id = relation.role("stage"), one = relation.role("gear_1"), two = relation.role("gear_2");
-    if (!id || *id == parts_.stage->id) return;
-    const Component& stage = reading_.in_role(relation, "stage");
-    const std::string name = Reading::name_of(stage);
-    if (stage.type != "cylindrical_stage" || !one || !two)
-      throw LeftOut{name + " also loads its shafts, and only external cylindrical stages are known"};
-    UnitMesh mesh;
-    mesh.name = name;
-    std::array<int, 2> on{};
-    for (std::size_t g = 0; g < 2; ++g) {
-      const Component& gear = reading_.in_role(relation, g == 0 ? "gear_1" : "gear_2");
-      const auto shafts = reading_.related(gear, {"shaft"});
-      const auto teeth = reading_.number(&gear, "number_of_teeth", Dimension::None),
-                 place = reading_.number(&gear, "u_coordinate_on_shaft", Dimension::Length);
-      if (gear.type != "cylindrical_gear" || shafts.empty() || !teeth || teeth->value < 5.0 || !place || !shafts_.contains(shafts.front()->id)) {
-        throw LeftOut{Reading::name_of(gear) + " is no external gear with teeth and a place on a shaft"};
-      }
-      on[g] = shafts.front()->id;
-      const auto width = reading_.number(&gear, "face_width", Dimension::Length);
-      mesh.gears[g] = {name_of_shaft(on[g]), shafts_.at(on[g]).place(place->value), static_cast<int>(std::lround(teeth->value)),
-                       width ? width->value : 0.0};
-      if (const auto module = reading_.number(&gear, "normal_module", Dimension::Length); module && std::isnan(mesh.normal_module))
-        mesh.normal_module = module->value;
-      const auto helix = reading_.number(&gear, "helix_angle_reference_diameter", Dimension::Angle);
-      if (g == 0 && helix) {
-        mesh.helix_angle = std::abs(helix->value);
-        mesh.hand = helix->value >= 0.0 ? Hand::Right : Hand::Left;
-      }
-      std::vector<const Component*> sources = reading_.related(gear, {"cylindrical_gear_flank"});
-      sources.push_back(&gear);
-      for (const Component* source : sources) {
-        if (const auto angle = reading_.number(source, "normal_pressure_angle", Dimension::Angle)) mesh.pressure_angle = angle->value;
-      }
+  /// The parts of another stage; what is wrong with its gears is a reason to leave the unit out.
+  StageParts parts_of_other(const Relation& relation, const std::string& name) {
+    const bool is_cylindrical = reading_.in_role(relation, "stage").type == "cylindrical_stage" && relation.role("gear_1") && relation.role("gear_2");
+    if (!is_cylindrical) throw LeftOut{name + " also loads its shafts, and only external cylindrical stages are known"};
+    StageParts parts = parts_of(reading_, relation);
+    for (const GearParts& gear : parts.gears) {
+      if (gear.shaft == nullptr || !shafts_.contains(gear.shaft->id)) throw LeftOut{Reading::name_of(*gear.gear) + " is on no shaft of the unit"};
     }
-    if (std::isnan(mesh.normal_module)) throw LeftOut{name + ": its gears have no normal_module"};
-    if (const auto distance = reading_.number(&stage, "center_distance", Dimension::Length)) mesh.centre_distance = distance->value;
-    const Vector3d apart = in_frame(across(on[0], on[1]));
+    return parts;
+  }
+
+  void add_mesh(const Relation& relation) {
+    const auto id = relation.role("stage");
+    if (!id || *id == parts_.stage->id) return;
+    const std::string name = Reading::name_of(reading_.in_role(relation, "stage"));
+    try {
+      StageParts parts = parts_of_other(relation, name);
+      const ImportedTorque torque = read_torque(condition_, parts);
+      take_flank(reading_, parts, torque.flank, torque.flank_source);
+      add_mesh(parts, read_mesh(reading_, parts));
+    } catch (const StudyErrors& errors) {
+      throw LeftOut{errors.what()};
+    }
+  }
+
+  void add_mesh(const StageParts& parts, const ImportedMesh& from) {
+    UnitMesh mesh;
+    mesh.name = Reading::name_of(*parts.stage);
+    mesh.normal_module = from.normal_module;
+    mesh.pressure_angle = from.pressure_angle;
+    mesh.helix_angle = from.helix_angle;
+    mesh.hand = from.pinion_hand;
+    mesh.centre_distance = from.centre_distance;
+    for (std::size_t g = 0; g < 2; ++g) {
+      const GearParts& gear = parts.gears[g];
+      const auto place = reading_.number(gear.gear, "u_coordinate_on_shaft", Dimension::Length);
+      if (!place) throw LeftOut{Reading::name_of(*gear.gear) + " has no u_coordinate_on_shaft"};
+      const auto width = reading_.number(gear.gear, "face_width", Dimension::Length);
+      mesh.gears[g] = {name_of_shaft(gear.shaft->id), shafts_.at(gear.shaft->id).place(place->value), parts.teeth[g], width ? width->value : 0.0};
+    }
+    const Vector3d apart = in_frame(across(parts.gears[0].shaft->id, parts.gears[1].shaft->id));
     mesh.angle = std::atan2(apart.y(), apart.x());
     result_.shafts.unit.meshes.push_back(mesh);
-    result_.mesh_remarks.push_back(name);
+    result_.mesh_remarks.push_back(from.remarks);
   }
 
   void read_joints(int id) {

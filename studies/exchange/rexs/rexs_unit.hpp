@@ -15,8 +15,9 @@ struct ImportedUnit {
   ShaftsOfPair shafts;
   PerGear<Remarks> remarks;                ///< of the pair's shafts
   std::string reference_remark;            ///< the condition of the reference torque
-  std::vector<std::string> shaft_remarks;  ///< of the further ones, the meshes', the loads' and the joints' remarks, one each
-  std::vector<std::string> mesh_remarks, load_remarks, joint_remarks;
+  std::vector<std::string> shaft_remarks;  ///< of the further ones, the loads' and the joints' remarks, one each
+  std::vector<std::string> load_remarks, joint_remarks;
+  std::vector<Remarks> mesh_remarks;  ///< one for each mesh, as ImportedMesh::remarks
 };
 
 /// Reads the unit around a stage where its shafts carry other gears or run in each other; nothing, and nothing said, where they do not, or have no

@@ -34,8 +34,12 @@ void write_unit(const ImportedUnit& imported, StudyText& text) {
   }
   for (std::size_t i = 0; i < unit.meshes.size(); ++i) {
     const UnitMesh& mesh = unit.meshes[i];
+    const auto remark = [&](const std::string& key) {
+      const auto found = imported.mesh_remarks[i].find(key);
+      return found == imported.mesh_remarks[i].end() ? std::string() : found->second;
+    };
     text.list_table("unit.meshes");
-    text.key("name", quoted(mesh.name), imported.mesh_remarks[i]);
+    text.key("name", quoted(mesh.name));
     for (std::size_t g = 0; g < 2; ++g) {
       const std::string number = g == 0 ? "_1" : "_2";
       text.key("shaft" + number, quoted(mesh.gears[g].shaft));
@@ -43,11 +47,11 @@ void write_unit(const ImportedUnit& imported, StudyText& text) {
       text.key("teeth" + number, std::to_string(mesh.gears[g].teeth));
       if (mesh.gears[g].face_width > 0.0) text.key("face_width" + number, difference_text(mesh.gears[g].face_width));
     }
-    text.key("normal_module", number_text(mesh.normal_module));
-    text.key("pressure_angle", number_text(mesh.pressure_angle / units::deg));
-    text.key("helix_angle", number_text(mesh.helix_angle / units::deg));
-    text.key("hand_1", mesh.hand == Hand::Right ? "\"right\"" : "\"left\"");
-    if (!std::isnan(mesh.centre_distance)) text.key("centre_distance", number_text(mesh.centre_distance));
+    text.key("normal_module", number_text(mesh.normal_module), remark("normal_module"));
+    text.key("pressure_angle", number_text(mesh.pressure_angle / units::deg), remark("pressure_angle"));
+    text.key("helix_angle", number_text(mesh.helix_angle / units::deg), remark("helix_angle"));
+    text.key("hand_1", mesh.hand == Hand::Right ? "\"right\"" : "\"left\"", remark("pinion_hand"));
+    if (!std::isnan(mesh.centre_distance)) text.key("centre_distance", number_text(mesh.centre_distance), remark("centre_distance"));
     text.key("angle", number_text(mesh.angle / units::deg), "by the shafts' support_vector");
   }
   for (std::size_t i = 0; i < unit.loads.size(); ++i) {

@@ -5,6 +5,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/rexs_export_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_import_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_load_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_mesh_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_model_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_shaft_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_unit_test.cpp)
