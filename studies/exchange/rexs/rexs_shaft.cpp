@@ -80,6 +80,8 @@ class ShaftReading {
       gears += component != nullptr && (component->type.ends_with("_gear") || component->type.ends_with("_wheel")) ? 1 : 0;
     }
     if (gears > 1) throw LeftOut{fmt::format("it carries {} gears, and a study knows the load of one", gears)};
+    const std::ptrdiff_t meshes = meshes_of(reading_, *parts_->gear);
+    if (meshes > 1) throw LeftOut{fmt::format("its gear has {} meshes, and a study knows the load of one", meshes)};
   }
 
   /// The mean of what the section has at both ends.

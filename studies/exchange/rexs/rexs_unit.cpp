@@ -11,6 +11,7 @@
 
 #include "core/base/units.hpp"
 #include "core/compliance/shaft/unit_checks.hpp"
+#include "core/compliance/shaft/unit_statics.hpp"
 #include "studies/study/study_errors.hpp"
 
 namespace flankwright::studies::rexs {
@@ -38,6 +39,7 @@ class UnitReading {
     }
     for (const auto& [id, shaft] : shafts_) read_joints(id);
     settle_bearings();
+    settle_torques();
     const std::vector<InvalidInput> problems = find_problems(completed(), pair_);
     if (!problems.empty()) {
       throw LeftOut{fmt::format("{} = {}: allowed is {}", problems.front().field(), problems.front().value(), problems.front().allowed())};
@@ -172,6 +174,7 @@ class UnitReading {
       const ImportedTorque torque = read_torque(condition_, parts);
       take_flank(reading_, parts, torque.flank, torque.flank_source);
       add_mesh(parts, read_mesh(reading_, parts));
+      add_torque(parts, torque);
     } catch (const StudyErrors& errors) {
       throw LeftOut{errors.what()};
     }
@@ -196,6 +199,35 @@ class UnitReading {
     mesh.angle = std::atan2(apart.y(), apart.x());
     result_.shafts.unit.meshes.push_back(mesh);
     result_.mesh_remarks.push_back(from.remarks);
+  }
+
+  /// About z, as the flank of the pair under study has it: programs write external loads with either sign, and the flank counts.
+  void add_torque(const StageParts& parts, const ImportedTorque& torque) {
+    const auto sense_of = [](WorkingFlank flank) { return flank == WorkingFlank::Right ? 1 : -1; };
+    const bool turned = runs_against(u_axis(reading_, *parts_.gears[0].gear), u_axis(reading_, *parts.gears[0].gear));
+    const int sense =
+        torque.flank_origin == FlankOrigin::Loads && reference_.signs.loads != 0 ? sense_of(reference_.flank) * reference_.signs.loads : 1;
+    const bool is_known = reference_.torque > 0.0 && torque.torque > 0.0 && torque.flank_origin != FlankOrigin::Assumed;
+    known_torques_.push_back(is_known ? (turned ? -1 : 1) * sense * sense_of(torque.flank) * torque.torque : not_given);
+    result_.mesh_remarks.back()["torque_1"] = torque.source;
+  }
+
+  bool are_torques_settled() { return torque_balance(completed(), pair_).determined; }
+
+  /// Torques of meshes where the balance of the shafts leaves them open, and only there: from others it follows.
+  void settle_torques() {
+    if (are_torques_settled()) return;
+    std::vector<UnitMesh>& meshes = result_.shafts.unit.meshes;
+    for (std::size_t i = 0; i < meshes.size(); ++i) meshes[i].torque = known_torques_[i];
+    for (UnitMesh& mesh : meshes) {
+      const double given = std::exchange(mesh.torque, not_given);
+      if (are_torques_settled()) continue;
+      mesh.torque = given;
+      if (!std::isnan(given) && reading_.model().load_cases.size() > 1) {
+        notes_.push_back("the torque of " + mesh.name + " is that of " + reference_.name +
+                         "; with the torque of the other cases it scales, whatever the file has there");
+      }
+    }
   }
 
   void read_joints(int id) {
@@ -246,17 +278,18 @@ class UnitReading {
   Condition condition_;
   Vector3d x_{Vector3d::Zero()}, y_{Vector3d::Zero()}, z_{Vector3d::Zero()};
   std::map<int, BareShaft> shafts_;    ///< by id
+  std::vector<double> known_torques_;  ///< on the first gear of each mesh by its shaft, about z [N mm]; not given: the file does not say
   std::vector<std::string> notes_;
   ImportedUnit result_;
 };
 
-/// Whether the stage's shafts carry other gears or run in other shafts.
+/// Whether the stage's gears have other meshes, or its shafts carry other gears or run in other shafts.
 bool is_in_unit(const Reading& reading, const StageParts& parts) {
   for (const GearParts& gear : parts.gears) {
     if (gear.shaft == nullptr || reading.related(*gear.shaft, {"shaft_section"}).empty()) return false;
   }
   for (const GearParts& gear : parts.gears) {
-    if (reading.related(*gear.shaft, {"cylindrical_gear"}).size() > 1) return true;
+    if (meshes_of(reading, *gear.gear) > 1 || reading.related(*gear.shaft, {"cylindrical_gear"}).size() > 1) return true;
     for (const Relation& relation : reading.model().relations) {
       if (relation.role("inner_part") != gear.shaft->id && relation.role("outer_part") != gear.shaft->id) continue;
       for (const char* side : {"inner_part", "outer_part"}) {

@@ -17,12 +17,12 @@ struct ImportedUnit {
   std::string reference_remark;            ///< the condition of the reference torque
   std::vector<std::string> shaft_remarks;  ///< of the further ones, the loads' and the joints' remarks, one each
   std::vector<std::string> load_remarks, joint_remarks;
-  std::vector<Remarks> mesh_remarks;  ///< one for each mesh, as ImportedMesh::remarks
+  std::vector<Remarks> mesh_remarks;  ///< one for each mesh, as ImportedMesh::remarks, and of torque_1
 };
 
-/// Reads the unit around a stage where its shafts carry other gears or run in each other; nothing, and nothing said, where they do not, or have no
-/// sections. A unit that a study cannot describe is left out with a warning that says why.
-/// @param reference  on the pinion, see reference_of(); forces from outside are those of its condition
+/// Reads the unit around a stage where its gears have other meshes, or its shafts carry other gears or run in each other; nothing, and nothing said,
+/// where they do not, or have no sections. A unit that a study cannot describe is left out with a warning that says why.
+/// @param reference  on the pinion, see reference_of(); forces from outside and torques of other meshes are those of its condition
 std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const ImportedTorque& reference);
 
 }  // namespace flankwright::studies::rexs

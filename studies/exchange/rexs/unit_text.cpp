@@ -53,6 +53,7 @@ void write_unit(const ImportedUnit& imported, StudyText& text) {
     text.key("hand_1", mesh.hand == Hand::Right ? "\"right\"" : "\"left\"", remark("pinion_hand"));
     if (!std::isnan(mesh.centre_distance)) text.key("centre_distance", number_text(mesh.centre_distance), remark("centre_distance"));
     text.key("angle", number_text(mesh.angle / units::deg), "by the shafts' support_vector");
+    if (!std::isnan(mesh.torque)) text.key("torque_1", number_text(mesh.torque / units::newton_metre), remark("torque_1"));
   }
   for (std::size_t i = 0; i < unit.loads.size(); ++i) {
     const UnitLoad& load = unit.loads[i];

@@ -2,9 +2,10 @@
 #include <cmath>
 #include <string>
 
-#include "core/base/units.hpp"
+#include "core/gear/gear_pair.hpp"
 #include "studies/exchange/rexs/rexs_import.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "studies/study_file/study_shafts.hpp"
 #include "tests/studies/exchange/rexs/gear_train.hpp"
 
 using namespace flankwright;
@@ -18,6 +19,11 @@ rexs::ImportedStudy stage_of_train(const GearTrain& train, int stage) {
   return rexs::import_stage(train.text(), "train.rexs", {.stage = stage, .grid_stem = "train"});
 }
 Study study_of_stage(const GearTrain& train, int stage) { return parse_study(stage_of_train(train, stage).text, "stage.toml"); }
+
+UnitState state_of(const Study& study) { return make_shafts(study, make_gear_pair(study.pair))->state(study.torques.front()); }
+UnitState state_of_stage(const GearTrain& train, int stage) {
+  return state_of(parse_study(stage_of_train(train, stage).text, "stage.toml", {{"fidelity.compliance", "thin_slice"}}));
+}
 
 rexs::Attribute torque(double newton_metre) { return number("torque_around_u_axis", newton_metre, "N m"); }
 
@@ -145,6 +151,15 @@ TEST_CASE("An idler is driven on one flank and drives with the other", "[studies
   CHECK(second.torques.front() == Approx(300e3 * 37 / 21).epsilon(round_off_of_torques));
   CHECK(first.pair.working_flank == WorkingFlank::Right);
   CHECK(second.pair.working_flank == WorkingFlank::Left);
+  REQUIRE(first.unit.meshes.size() == 1);
+  REQUIRE(second.unit.meshes.size() == 1);
+  // The balance of the first stage's unit finds the same for the second mesh, and the other way round.
+  const UnitState from_first = state_of_stage(train, 1), from_second = state_of_stage(train, 2);
+  CHECK(from_first.meshes[1].first_flank == second.pair.working_flank);
+  CHECK(from_first.meshes[1].torque[0] == Approx(-300e3 * 37 / 21).epsilon(round_off_of_torques));
+  CHECK(from_second.meshes[1].first_flank == first.pair.working_flank);
+  CHECK(from_second.meshes[1].torque[0] == Approx(300e3).epsilon(round_off_of_torques));
+  for (std::size_t i = 0; i < 2; ++i) CHECK(from_first.meshes[i].normal_force == Approx(from_second.meshes[1 - i].normal_force).epsilon(1e-9));
 }
 
 TEST_CASE("A power at a speed is a torque with its sign", "[studies][rexs][import][unit]") {

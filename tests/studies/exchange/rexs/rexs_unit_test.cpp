@@ -9,6 +9,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "studies/study_file/study_shafts.hpp"
 #include "tests/studies/command_line.hpp"
+#include "tests/studies/exchange/rexs/gear_train.hpp"
 #include "tests/studies/study_texts.hpp"
 
 using namespace flankwright;
@@ -23,6 +24,25 @@ std::string unit_file() {
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();
+}
+
+/// Two input pinions of 25 teeth, 120 deg apart, on a wheel of 101, each with a load of this torque.
+/// @param in_stages  whether the torques are in the data of the stages, too
+std::string ship_file(double newton_metre, bool in_stages) {
+  using namespace gear_trains;
+  const double distance = reference_distance(25, 101, 4, 10);
+  GearTrain train;
+  const int wheel_shaft = train.shaft(0, 0);
+  const int wheel = train.gear(wheel_shaft, 150, 101, 4, -10.0);
+  train.load(wheel_shaft, 300, {word("transmits_torque", "true")});
+  for (const double side : {-1.0, 1.0}) {
+    const int shaft = train.shaft(side * distance * std::cos(30 * units::deg), distance * std::sin(30 * units::deg));
+    const int pinion = train.gear(shaft, 150, 25, 4, 10.0);
+    train.load(shaft, 0, {number("torque_around_u_axis", newton_metre, "N m")});
+    const int stage = train.stage(pinion, wheel);
+    if (in_stages) train.stage_data(stage, pinion, {number("torque", std::abs(newton_metre), "N m")});
+  }
+  return train.text();
 }
 
 rexs::UnitImport import_of(const std::string& text) { return rexs::import_unit(text, "unit.rexs", {.grid_stem = "unit"}); }
@@ -119,4 +139,41 @@ TEST_CASE("A unit that a study cannot describe is left out with its reason, and 
     CHECK(parse_study(stage.study.text, "stage").unit.empty());
     CHECK_THAT(stage.study.text, Contains("the unit around the stage: not taken, shaft 4 is not parallel"));
   }
+}
+
+TEST_CASE("Two pinions on one wheel are a unit, and both load the wheel", "[studies][rexs][import][unit]") {
+  const double newton_metre = GENERATE(800.0, -800.0);
+  const std::string text = ship_file(newton_metre, GENERATE(false, true));
+  for (const int stage : {1, 2}) {
+    const rexs::ImportedStudy imported = rexs::import_stage(text, "ship.rexs", {.stage = stage, .grid_stem = "ship"});
+    CHECK(imported.warnings.empty());
+    const Study study = parse_study(imported.text, "ship.toml", {{"fidelity.compliance", "thin_slice"}});
+    CHECK(study.pair.working_flank == (newton_metre > 0.0 ? WorkingFlank::Right : WorkingFlank::Left));
+    REQUIRE(study.unit.meshes.size() == 1);
+    CHECK(study.unit.meshes[0].torque == Approx(1e3 * newton_metre).epsilon(1e-12));
+    const GearPair pair = make_gear_pair(study.pair);
+    const UnitState state = make_shafts(study, pair)->state(study.torques.front());
+    CHECK(state.meshes[1].normal_force == Approx(state.meshes[0].normal_force).epsilon(1e-9));
+    // Independent route: both meshes push the wheel with T / r_b across its axis, in directions 120 deg apart, so that their sum is as large as each.
+    Eigen::Vector2d on_wheel = Eigen::Vector2d::Zero();
+    for (const BearingState& bearing : state.bearings) {
+      if (bearing.shaft == "wheel") on_wheel += bearing.force.head<2>();
+    }
+    CHECK(on_wheel.norm() == Approx(1e3 * std::abs(newton_metre) / pair.pinion.base_radius).epsilon(1e-6));
+    for (const ShaftState& shaft : state.shafts) {
+      if (shaft.name == "wheel") CHECK(std::abs(shaft.coupling_torque) == Approx(2e3 * std::abs(newton_metre) * 101 / 25).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("A gear with several meshes is not taken for one with a single mesh", "[studies][rexs][import][unit]") {
+  // How much torque the second pinion's load transmits is not in the file.
+  std::string text = ship_file(800.0, false);
+  const std::string known = "<attribute id=\"torque_around_u_axis\" unit=\"N m\">800</attribute>";
+  text.replace(text.rfind(known), known.size(), "<attribute id=\"transmits_torque\" unit=\"none\">true</attribute>");
+  const rexs::ImportedStudy imported = rexs::import_stage(text, "ship.rexs", {.stage = 1, .grid_stem = "ship"});
+  const Study study = parse_study(imported.text, "ship.toml");
+  CHECK(study.unit.empty());
+  CHECK_FALSE(study.shaft.wheel);
+  CHECK_THAT(imported.text, Contains("the unit around the stage: not taken") && Contains("its gear has 2 meshes"));
 }
