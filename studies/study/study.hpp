@@ -106,12 +106,19 @@ struct FitChoice {
   int max_iterations{300};    ///< trust-region steps
 };
 
+/// [accuracy.outside]: the transmission error of the same pair from elsewhere: a test rig, another program.
+struct OutsideCurve {
+  std::string name{"outside"};
+  std::vector<double> transmission_error;  ///< at evenly spaced positions over one pitch, the first at phase 0; at least 3 [mm]
+};
+
 /// [accuracy]: the finest fidelity level, which all others are compared with; graded quadrature, refined peaks.
 struct AccuracyTable {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::WholeSurface};
-  int intervals{16};  ///< >= 8
-  int positions{64};  ///< >= 16
+  int intervals{16};       ///< >= 8
+  int positions{64};       ///< >= 16
+  OutsideCurve outside{};  ///< without values: none; the study then has one load case
 };
 
 /// [expect]: one key of results.json and its expected value.

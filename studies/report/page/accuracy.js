@@ -2,12 +2,28 @@
 
 const FIGURES = ["worst", "te_mean", "te_peak_to_peak", "te_harmonic_1", "te_harmonic_2", "te_harmonic_3", "te_harmonic_4", "te_harmonic_5",
   "peak_contact_stress", "peak_line_load", "load_factor"];
-const figure_words = (name) => (name === "worst" ? "worst of all quantities" : words(name));
+/** Figures whose differences are counted from the study's outside curve, where it gives one. */
+const OUTSIDE = "from_outside:", OUTSIDE_FIGURES = ["te_mean", "te_peak_to_peak", "te_harmonic_1"], WORST_FROM_OUTSIDE = `${OUTSIDE}worst`;
+const figure_words = (name) => (name === "worst" ? "worst of all quantities" : name === WORST_FROM_OUTSIDE ? "worst of TE mean, peak to peak and first harmonic, from outside"
+  : name.startsWith(OUTSIDE) ? `${words(name.slice(OUTSIDE.length))}, from outside` : words(name));
+/** Magnitude of a level's error [%]. */
+function error_of(level, figure) {
+  if (!figure.startsWith(OUTSIDE)) return record(level.error_percent)[figure];
+  const from_outside = record(level.from_outside_percent);
+  return Math.max(...(figure === WORST_FROM_OUTSIDE ? OUTSIDE_FIGURES : [figure.slice(OUTSIDE.length)]).map((name) => Math.abs(from_outside[name])));
+}
 const AXIS_STYLE = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross", "rect", "triangle", "circle", "rectRot", "circle"];
 /** Errors below this are drawn at it: a logarithmic axis has no 0 [%]. */
 const LEAST_DRAWN_ERROR = 1e-3;
 
-const is_best = (level, figure) => (figure === "worst" ? level.pareto_best : list(level.pareto_best_in).includes(figure));
+/** Whether no other of the levels is both as fast and as accurate. */
+function is_best(level, figure, levels) {
+  if (figure === "worst") return level.pareto_best;
+  if (!figure.startsWith(OUTSIDE)) return list(level.pareto_best_in).includes(figure);
+  const error = error_of(level, figure);
+  return !levels.some((other) => other.seconds <= level.seconds && error_of(other, figure) <= error
+    && (other.seconds < level.seconds || error_of(other, figure) < error));
+}
 
 function settings_text(settings) {
   const { compliance, gap, quadrature, positions, peaks } = record(settings);
@@ -28,15 +44,18 @@ function accuracy_headline(accuracy) {
   return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest level in ${time_text(enough.seconds)} instead of ${time_text(finest.seconds)}: “${enough.name}”`;
 }
 
+/** The figure that is shown first. */
+const first_figure = (accuracy) => (is_number(record(accuracy.outside).te_mean_um) ? WORST_FROM_OUTSIDE : "worst");
+
 function draw_levels(plot, levels, figure, height = 460) {
-  const shown = levels.filter((level) => level.axis !== "finest" && is_number(level.seconds) && is_number(record(level.error_percent)[figure]));
-  const point = (level) => ({ x: level.seconds, y: Math.max(record(level.error_percent)[figure], LEAST_DRAWN_ERROR), note: level.name });
+  const shown = levels.filter((level) => (level.axis !== "finest" || figure.startsWith(OUTSIDE)) && is_number(level.seconds) && is_number(error_of(level, figure)));
+  const point = (level) => ({ x: level.seconds, y: Math.max(error_of(level, figure), LEAST_DRAWN_ERROR), note: level.name });
   const axes = unique(shown.map((level) => level.axis));
-  const front = shown.filter((level) => is_best(level, figure)).sort((a, b) => a.seconds - b.seconds);
+  const front = shown.filter((level) => is_best(level, figure, shown)).sort((a, b) => a.seconds - b.seconds);
   const decade = (value) => (Number.isInteger(Math.round(Math.log10(value) * 1e6) / 1e6) ? fmt(value) : "");
   const log_axis = { type: "logarithmic", ticks: { callback: decade } };
   xy_chart(plot, {
-    label: `Error of ${figure_words(figure)} against seconds`,
+    label: `Error of ${figure_words(figure)} over seconds`,
     curves: [
       { label: "Pareto-best", points: front.map(point), colour: css_colour("ink"), width: 1.2, dashed: true, order: 2 },
       { label: "Pareto-best levels", quiet: true, points: front.map(point), colour: css_colour("ink"), fill: "transparent", scatter: true, hollow: true, size: 9, order: 2 },
@@ -45,7 +64,7 @@ function draw_levels(plot, levels, figure, height = 460) {
         hollow: ["star", "crossRot", "cross"].includes(AXIS_STYLE[i]), style: AXIS_STYLE[i % AXIS_STYLE.length], size: 5,
       })),
     ],
-    x: "seconds of one thread, influence values known", y: "error [%]",
+    x: "seconds of one thread, influence values known", y: `error [%]: ${figure_words(figure)}`,
     x_range: log_axis, y_range: log_axis, read_x: time_text, read_y: (y) => `${fmt(y, 3)} %`, nearest: "xy", height,
     labels: front.map((level) => ({ ...point(level), text: level.name })),
   });
@@ -56,28 +75,34 @@ function build_accuracy(results, body) {
   if (choice.estimate_percent) build_accuracy_choice(choice, body);
   const accuracy = record(results.accuracy), levels = list(accuracy.rungs).map(record);
   if (levels.length === 0) return;
-  const state = { figure: "worst" };
+  const outside = record(accuracy.outside), has_outside = is_number(outside.te_mean_um);
+  const state = { figure: first_figure(accuracy) };
   const redraw = figure(figure_grid(body), {
     title: "Error and time of each fidelity level",
     wide: true,
     caption: "Each mark is a fidelity level: all load cases analysed with its models and resolution, compared with the finest level. Most levels differ "
       + "from the finest along one axis; the whole settings are complete choices for practical use. A level with a ring is Pareto-best: no other level "
-      + `is both as fast and as accurate. Errors below ${LEAST_DRAWN_ERROR} % are drawn at that value.`,
+      + `is both as fast and as accurate. Errors below ${LEAST_DRAWN_ERROR} % are drawn at that value.`
+      + (has_outside ? ` Errors “from outside” are counted from the curve that the study gives (${outside.name}, ${fmt(outside.positions)} positions), at its positions.` : ""),
   }, (plot) => draw_levels(plot, levels, state.figure));
-  const { node } = choice_of_figure(state, redraw);
+  const { node } = choice_of_figure(state, redraw, has_outside);
   body.prepend(node);
   table(body, {
     title: "Fidelity levels",
     note: "Errors are differences from the finest level in per cent, in the worst load case. The TE mean is related to the mean deflection of the mesh; peak "
       + "to peak and harmonics are related to the peak to peak, or to 2 % of that deflection where this is larger. Times are of one thread with influence "
-      + "values known; the first run includes the finite elements that the compliance needs.",
+      + "values known; the first run includes the finite elements that the compliance needs."
+      + (has_outside ? ` The last columns are differences from ${outside.name}, which has a mean of ${fmt(outside.te_mean_um, 4)} um and a peak to peak of `
+        + `${fmt(outside.te_peak_to_peak_um, 4)} um; + is more.` : ""),
     columns: [{ label: "Level" }, { label: "Axis" }, { label: "Error of" }, { label: "Time", unit: "s", digits: 3 }, { label: "First run", unit: "s", digits: 3 },
       { label: "TE mean", unit: "%", digits: 2 }, { label: "TE p-p", unit: "%", digits: 2 }, { label: "TE harmonic 1", unit: "%", digits: 2 },
-      { label: "Stress", unit: "%", digits: 2 }, { label: "Line load", unit: "%", digits: 2 }, { label: "Worst", unit: "%", digits: 2 }, { label: "Best" }, { label: "Settings" }],
+      { label: "Stress", unit: "%", digits: 2 }, { label: "Line load", unit: "%", digits: 2 }, { label: "Worst", unit: "%", digits: 2 }, { label: "Best" }, { label: "Settings" },
+      ...(has_outside ? OUTSIDE_FIGURES.map((name) => ({ label: `${words(name)}, from outside`, unit: "%", digits: 2 })) : [])],
     rows: levels.map((level) => {
       const e = record(level.error_percent);
       return [level.name, level.axis, level.varies, level.seconds, level.first_run_seconds, e.te_mean ?? null, e.te_peak_to_peak ?? null, e.te_harmonic_1 ?? null,
-        e.peak_contact_stress ?? null, e.peak_line_load ?? null, e.worst ?? null, level.pareto_best ? "yes" : "", settings_text(level.settings)];
+        e.peak_contact_stress ?? null, e.peak_line_load ?? null, e.worst ?? null, level.pareto_best ? "yes" : "", settings_text(level.settings),
+        ...(has_outside ? OUTSIDE_FIGURES.map((name) => record(level.from_outside_percent)[name] ?? null) : [])];
     }),
   });
   const own = record(accuracy.reference_resolution_error_percent);
@@ -93,8 +118,8 @@ function build_accuracy(results, body) {
   });
 }
 
-function choice_of_figure(state, redraw) {
-  const options = FIGURES.map((value) => ({ value, label: figure_words(value) }));
+function choice_of_figure(state, redraw, has_outside) {
+  const options = [...(has_outside ? [WORST_FROM_OUTSIDE, ...OUTSIDE_FIGURES.map((name) => OUTSIDE + name)] : []), ...FIGURES].map((value) => ({ value, label: figure_words(value) }));
   const made = choice("Error of", options, state.figure, (value) => {
     state.figure = value;
     redraw();

@@ -92,7 +92,7 @@ function sweep_first(first, results) {
 
 function accuracy_first(first, results) {
   const levels = list(record(results.accuracy).rungs).map(record);
-  panel(first, { title: "Error and time of each fidelity level", span: 7, href: "accuracy" }, (plot) => draw_levels(plot, levels, "worst", 400));
+  panel(first, { title: "Error and time of each fidelity level", span: 7, href: "accuracy" }, (plot) => draw_levels(plot, levels, first_figure(record(results.accuracy)), 400));
   panel(first, { title: "Cheapest level within an error", span: 5, href: "accuracy" }, (plot) => {
     const rows = [10, 5, 2, 1, 0.5, 0.1].map((percent) => ({ percent, level: cheapest_within(levels, percent) })).filter(({ level }) => level);
     const tightest = rows.filter(({ level }, i) => rows[i + 1]?.level !== level), finest = levels.find((level) => level.axis === "finest");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "studies/base/csv.hpp"
@@ -19,10 +20,17 @@ std::vector<const HierarchyStep*> all_steps(const FidelityHierarchy& hierarchy) 
   return all;
 }
 
+/// Figures that are shown beside an outside curve.
+constexpr std::array outside_shown{Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1};
+
+double of(const PerFigure& figures, Figure f) { return figures[static_cast<std::size_t>(f)]; }
+
 std::string levels_csv(const FidelityHierarchy& hierarchy) {
   std::string csv = "rung,axis,varies,compliance,gap,rule,intervals,positions,peaks,left_out,seconds,first_run_seconds,pareto_best";
   for (int i = 0; i < figure_count; ++i) csv += fmt::format(",{}_error_percent", name_of(static_cast<Figure>(i)));
-  csv += ",worst_error_percent\n";
+  csv += ",worst_error_percent";
+  for (const Figure f : outside_shown) csv += hierarchy.outside ? fmt::format(",{}_from_outside_percent", name_of(f)) : "";
+  csv += "\n";
   for (const HierarchyStep* step : all_steps(hierarchy)) {
     const FidelityLevel& r = step->result.level;
     const Json quadrature = quadrature_json(r.quadrature);
@@ -30,7 +38,9 @@ std::string levels_csv(const FidelityHierarchy& hierarchy) {
                        to_string(r.gap), quadrature.at("rule").get<std::string>(), r.quadrature.intervals, r.positions,
                        r.located_peaks ? "refined" : "sampled", fmt::join(r.left_out, " "), step->result.seconds, step->first_seconds, step->best);
     for (double share : step->error) csv += fmt::format(",{}", percent * share);
-    csv += fmt::format(",{}\n", percent * largest(step->error));
+    csv += fmt::format(",{}", percent * largest(step->error));
+    for (const Figure f : outside_shown) csv += hierarchy.outside ? fmt::format(",{}", percent * of(step->from_outside, f)) : "";
+    csv += "\n";
   }
   return csv;
 }
@@ -54,15 +64,23 @@ std::vector<NamedText> hierarchy_tables(const FidelityHierarchy& hierarchy) {
 }
 
 std::string hierarchy_summary(const FidelityHierarchy& hierarchy) {
-  const auto share = [](const PerFigure& error, Figure f) { return percent * error[static_cast<std::size_t>(f)]; };
-  std::string out = fmt::format("{:<24}  {:<18}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", "level", "axis", "seconds", "TE mean", "TE p-p",
-                                "TE 1st", "sigma", "worst, %");
+  const auto share = [](const PerFigure& error, Figure f) { return percent * of(error, f); };
+  std::string out = fmt::format("{:<24}  {:<18}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}", "level", "axis", "seconds", "TE mean", "TE p-p", "TE 1st",
+                                "sigma", "worst, %");
+  if (hierarchy.outside) out += "  | from outside: TE mean, p-p, 1st, %";
+  out += "\n";
   for (const HierarchyStep* step : all_steps(hierarchy)) {
     const PerFigure& e = step->error;
-    out += fmt::format("{:<24}  {:<18}  {:>9.3g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}{}\n", step->result.level.name,
-                       step->result.level.axis, step->result.seconds, share(e, Figure::TeMean), share(e, Figure::TePeakToPeak),
-                       share(e, Figure::TeHarmonic1), share(e, Figure::PeakContactStress), percent * largest(e), step->best ? "  *" : "");
+    out += fmt::format("{:<24}  {:<18}  {:>9.3g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}", step->result.level.name, step->result.level.axis,
+                       step->result.seconds, share(e, Figure::TeMean), share(e, Figure::TePeakToPeak), share(e, Figure::TeHarmonic1),
+                       share(e, Figure::PeakContactStress), percent * largest(e));
+    if (hierarchy.outside) {
+      out += "  |";
+      for (const Figure f : outside_shown) out += fmt::format("  {:>+9.2g}", share(step->from_outside, f));
+    }
+    out += step->best ? "  *\n" : "\n";
   }
+  if (hierarchy.outside) out += fmt::format("outside: {}, at {} positions\n", hierarchy.outside->name, hierarchy.outside->positions);
   return out +
          "* Pareto-best: no other level is both as fast and as accurate; errors in per cent of the finest level, worst over the scenes; seconds of one thread, influence values known\n";
 }

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
+#include <ranges>
 #include <span>
 
 #include "core/base/limit_estimate.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/contact/unloaded/transmission_error.hpp"
 
 namespace flankwright::studies {
 
@@ -132,9 +135,31 @@ void add_order(FidelityHierarchy& hierarchy, const char* axis, int (*level)(cons
   hierarchy.orders.push_back(orders);
 }
 
-void mark_best(FidelityHierarchy& hierarchy) {
+/// All steps, the reference first.
+std::vector<HierarchyStep*> all_steps(FidelityHierarchy& hierarchy) {
   std::vector<HierarchyStep*> all{&hierarchy.reference};
   for (HierarchyStep& step : hierarchy.steps) all.push_back(&step);
+  return all;
+}
+
+/// Every level at the positions of the study's outside curve, if it has one.
+void add_outside_differences(FidelityHierarchy& hierarchy, LevelRunner& runner) {
+  const OutsideCurve& curve = runner.subject().study.accuracy.outside;
+  if (curve.transmission_error.empty() || !hierarchy.usable()) return;
+  hierarchy.outside = outside_figures(curve);
+  for (HierarchyStep* step : all_steps(hierarchy)) {
+    FidelityLevel level = step->result.level;
+    level.positions = static_cast<int>(curve.transmission_error.size());
+    level.located_peaks = false;
+    const LevelResult result = runner.run(level);
+    if (!result.usable()) continue;
+    step->from_outside =
+        outside_differences(result.scenes.front().value, hierarchy.outside->value, hierarchy.reference.result.scenes.front().mean_approach);
+  }
+}
+
+void mark_best(FidelityHierarchy& hierarchy) {
+  const std::vector<HierarchyStep*> all = all_steps(hierarchy);
   std::vector<double> cost, error;
   for (const HierarchyStep* step : all) {
     cost.push_back(step->result.seconds);
@@ -173,6 +198,25 @@ std::vector<FidelityLevel> hierarchy_levels(const LevelRunner& runner) {
   return fidelity_levels;
 }
 
+OutsideFigures outside_figures(const OutsideCurve& curve) {
+  const std::vector<double>& te = curve.transmission_error;
+  OutsideFigures figures{curve.name, static_cast<int>(te.size())};
+  const auto at = [&figures](Figure f) -> double& { return figures.value[static_cast<std::size_t>(f)]; };
+  const auto [low, high] = std::ranges::minmax(te);
+  at(Figure::TeMean) = std::accumulate(te.begin(), te.end(), 0.0) / figures.positions;
+  at(Figure::TePeakToPeak) = high - low;
+  std::ranges::copy(harmonic_amplitudes(te) | std::views::take(figure_harmonics), &at(Figure::TeHarmonic1));
+  return figures;
+}
+
+PerFigure outside_differences(const PerFigure& figures, const PerFigure& outside, double approach) {
+  const double variation = std::max(outside[static_cast<std::size_t>(Figure::TePeakToPeak)], quiet_share * approach);
+  PerFigure differences{};
+  for (std::size_t i = 0; i < differences.size(); ++i)
+    differences[i] = (figures[i] - outside[i]) / (static_cast<Figure>(i) == Figure::TeMean ? approach : variation);
+  return differences;
+}
+
 FidelityHierarchy run_hierarchy(LevelRunner& runner, const ProgressReport& progress) {
   const Stopwatch clock;
   FidelityHierarchy hierarchy;
@@ -190,6 +234,7 @@ FidelityHierarchy run_hierarchy(LevelRunner& runner, const ProgressReport& progr
     hierarchy.steps.push_back(step(fidelity_levels[i]));
     hierarchy.steps.back().error = worst_errors(hierarchy.steps.back().result, hierarchy.reference.result);
   }
+  add_outside_differences(hierarchy, runner);
   if (hierarchy.usable()) {
     add_order(hierarchy, graded_axis, [](const FidelityLevel& r) { return r.quadrature.intervals; });
     add_order(hierarchy, positions_axis, [](const FidelityLevel& r) { return r.positions; });

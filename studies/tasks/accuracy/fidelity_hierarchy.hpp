@@ -1,11 +1,19 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "studies/analysis/fidelity_level.hpp"
 
 namespace flankwright::studies {
+
+/// NaN for every figure.
+inline PerFigure nothing_known() {
+  PerFigure figures{};
+  figures.fill(not_given);
+  return figures;
+}
 
 /// One level with its error compared with the finest.
 struct HierarchyStep {
@@ -15,6 +23,7 @@ struct HierarchyStep {
   /// Pareto-best: no other level is both as fast and as accurate, in the worst quantity (`best`) or in one (`best_in`).
   bool best{false};
   std::array<bool, figure_count> best_in{};
+  PerFigure from_outside = nothing_known();  ///< differences from the study's outside curve, see outside_differences()
 };
 
 /// Orders of convergence along one axis whose steps halve.
@@ -25,18 +34,34 @@ struct AxisOrder {
   PerFigure order{};
 };
 
+/// What an outside curve says.
+struct OutsideFigures {
+  std::string name;
+  int positions;
+  PerFigure value = nothing_known();  ///< mean, peak to peak and the harmonics that the positions resolve [mm]; NaN for the others
+};
+
 struct FidelityHierarchy {
   std::vector<DesignScene> scenes;   ///< load cases
   HierarchyStep reference;           ///< the finest level
   std::vector<HierarchyStep> steps;  ///< all others
   std::vector<AxisOrder> orders;
-  PerFigure reference_error{};  ///< of the reference's own resolution, estimated by its last halvings, share; worst over the load cases
-  double seconds{not_given};    ///< wall time of all of it
+  std::optional<OutsideFigures> outside;  ///< none where the study gives no curve
+  PerFigure reference_error{};            ///< of the reference's own resolution, estimated by its last halvings, share; worst over the load cases
+  double seconds{not_given};              ///< wall time of all of it
   bool usable() const { return reference.result.usable(); }
 };
 
 /// The fidelity levels of a study, the finest first: one axis varied at a time from there, then whole settings.
 std::vector<FidelityLevel> hierarchy_levels(const LevelRunner& runner);
+
+OutsideFigures outside_figures(const OutsideCurve& curve);
+
+/// By how much figures of the transmission error exceed those of an outside curve at the same positions, as fractions: the mean in units of
+/// the approach, peak to peak and harmonics in units of the curve's peak to peak, at least quiet_share of the approach. NaN for figures that
+/// the curve does not have.
+/// @param approach  of the flanks, mean over the cycle at the finest level [mm]
+PerFigure outside_differences(const PerFigure& figures, const PerFigure& outside, double approach);
 
 /// Analyses the study's load cases at every level and compares each level with the finest.
 FidelityHierarchy run_hierarchy(LevelRunner& runner, const ProgressReport& progress);

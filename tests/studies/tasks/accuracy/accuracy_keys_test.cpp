@@ -2,6 +2,7 @@
 
 #include "studies/study_file/study_file.hpp"
 #include "studies/tasks/study_template.hpp"
+#include "tests/studies/study_texts.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -25,4 +26,21 @@ TEST_CASE("The study gives the finest level", "[studies][accuracy]") {
   CHECK(study.accuracy.gap == GapModel::WholeSurface);
   CHECK(study.accuracy.intervals == 16);
   CHECK(study.accuracy.positions == 256);
+}
+
+TEST_CASE("A curve from outside has values, and a study with one load case", "[studies][accuracy]") {
+  using Overrides = std::vector<Override>;
+  const std::string key = "accuracy.outside.transmission_error";
+  const auto with = [](Overrides overrides) {
+    overrides.push_back({"task", "\"accuracy\""});
+    overrides.push_back({"load.torque", "100"});
+    return study_texts::read("", overrides);
+  };
+  const Study study = with({{key, "[12, 13.5, 12.5]"}});
+  CHECK(study.accuracy.outside.transmission_error == std::vector<double>{12e-3, 13.5e-3, 12.5e-3});
+  CHECK(study.accuracy.outside.name == "outside");
+  CHECK_THROWS_WITH(with({{key, "[12, 13.5]"}}), Catch::Contains(key) && Catch::Contains("3 to 1024 values"));
+  CHECK_THROWS_WITH(parse_study(study_template("accuracy"), "accuracy.toml", {{key, "[12, 13.5, 12.5]"}}),
+                    Catch::Contains(key) && Catch::Contains("this one has 2"));
+  CHECK_THROWS_WITH(with({{"accuracy.outside.name", "\"rig\""}}), Catch::Contains("accuracy.outside.name") && Catch::Contains("needs " + key));
 }

@@ -1,5 +1,7 @@
 #include "studies/tasks/accuracy/fidelity_hierarchy.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -15,17 +17,19 @@ using namespace flankwright::studies;
 namespace {
 
 /// A pair by thin slices, coarse enough for a fraction of a second.
-FidelityHierarchy hierarchy_of(double helix_angle_deg, const std::string& modification = "", const std::string& fidelity = "") {
-  const std::string text = R"(task = "accuracy"
+std::string hierarchy_text(double helix_angle_deg, const std::string& modification = "", const std::string& fidelity = "") {
+  return R"(task = "accuracy"
 [pair]
 normal_module = 4
-helix_angle = )" + std::to_string(helix_angle_deg) +
-                           R"(
+helix_angle = )" +
+         std::to_string(helix_angle_deg) +
+         R"(
 [pinion]
 teeth = 20
 face_width = 30
 [pinion.modification]
-)" + modification + R"(
+)" + modification +
+         R"(
 [wheel]
 teeth = 40
 face_width = 30
@@ -35,14 +39,18 @@ torque = 200
 positions = 12
 [fidelity]
 compliance = "thin_slice"
-)" + fidelity + R"(
+)" + fidelity +
+         R"(
 [accuracy.finest]
 compliance = "thin_slice"
 gap = "plane_of_action"
 intervals = 8
 positions = 48
 )";
-  const StudyResults results = run_study(parse_study(text, "levels.toml"));
+}
+
+FidelityHierarchy hierarchy_of(double helix_angle_deg, const std::string& modification = "", const std::string& fidelity = "") {
+  const StudyResults results = run_study(parse_study(hierarchy_text(helix_angle_deg, modification, fidelity), "levels.toml"));
   REQUIRE(results.requirements.empty());
   REQUIRE(results.hierarchy);
   return *results.hierarchy;
@@ -117,4 +125,55 @@ TEST_CASE("JSON and tables of a hierarchy name every level once", "[studies][acc
   const std::vector<NamedText> tables = hierarchy_tables(hierarchy);
   REQUIRE(tables.size() == 2);
   CHECK(std::ranges::count(tables[0].text, '\n') == static_cast<long>(hierarchy.steps.size()) + 2);
+}
+
+TEST_CASE("A curve from outside that a level's own is has no difference from it, and a constant more is one of the mean alone",
+          "[studies][accuracy][levels]") {
+  // Positions of the curve are positions of the finest level; peaks between them do not count.
+  const FidelityHierarchy hierarchy = hierarchy_of(20.0);
+  FidelityLevel level = hierarchy.reference.result.level;
+  const Study study = parse_study(hierarchy_text(20.0), "levels.toml");
+  const ProgressReport silent;
+  const GearPair pair = make_gear_pair(study.pair);
+  LevelRunner runner({.study = study, .pair = pair, .scenes = hierarchy.scenes}, silent);
+  constexpr int positions = 6;
+  std::vector<double> te;
+  const MeshModel model = runner.mesh(level, hierarchy.scenes[0])({level.quadrature, equally_spaced_phases(positions)});
+  for (const LoadedPosition& position : analyse_cycle(model, hierarchy.scenes[0].condition, hierarchy.scenes[0].torque).positions)
+    te.push_back(position.load.transmission_error);
+
+  constexpr double more = 1.5;  // um
+  const auto with_curve = [&](double shift) {
+    std::string values;
+    for (const double value : te) values += fmt::format("{}{:.17g}", values.empty() ? "" : ", ", value / units::um + shift);
+    return hierarchy_of(20.0, "", fmt::format("[accuracy.outside]\nname = \"rig\"\ntransmission_error = [{}]\n", values));
+  };
+  constexpr double round_off = 1e-10;
+  const FidelityHierarchy same = with_curve(0.0), shifted = with_curve(more);
+  REQUIRE(same.outside);
+  CHECK(same.outside->name == "rig");
+  CHECK(same.outside->positions == positions);
+  const auto of = [](const HierarchyStep& s, Figure f) { return s.from_outside[static_cast<std::size_t>(f)]; };
+  for (const Figure f : {Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1, Figure::TeHarmonic2}) {
+    CAPTURE(name_of(f));
+    CHECK(std::abs(of(same.reference, f)) < round_off);
+  }
+  // The curve's positions do not resolve all harmonics, and it has no stress.
+  CHECK(std::isnan(of(same.reference, Figure::TeHarmonic5)));
+  CHECK(std::isnan(of(same.reference, Figure::PeakContactStress)));
+
+  const double approach = same.reference.result.scenes[0].mean_approach;
+  CHECK(of(shifted.reference, Figure::TeMean) == Approx(-more * units::um / approach).epsilon(1e-9));
+  CHECK(std::abs(of(shifted.reference, Figure::TePeakToPeak)) < round_off);
+  // The sign: rigid teeth yield less than the finest level.
+  CHECK(of(step(same, "rigid"), Figure::TeMean) < -0.5);
+  // Fewer positions change nothing where all levels are compared at those of the curve.
+  CHECK(std::abs(of(step(same, "12 positions"), Figure::TePeakToPeak)) < round_off);
+
+  const Json json = hierarchy_json(shifted);
+  CHECK(json.at("outside").at("te_mean_um").get<double>() == Approx(more + same.outside->value[0] / units::um).epsilon(1e-12));
+  CHECK(json.at("rungs").at(0).at("from_outside_percent").at("te_mean").get<double>() == Approx(-100.0 * more * units::um / approach).epsilon(1e-9));
+  CHECK_FALSE(json.at("rungs").at(0).at("from_outside_percent").contains("te_harmonic_5"));
+  CHECK(hierarchy_tables(shifted)[0].text.find("te_mean_from_outside_percent") != std::string::npos);
+  CHECK(hierarchy_json(hierarchy).contains("outside") == false);
 }
