@@ -38,7 +38,7 @@ void add(DamageSum& sum, const SnCurve& curve, double cycles, double stress, con
 Eigen::VectorXd contact_damage(const MeshModel& model, const LoadSpectrum& spectrum, Member member, const SnCurve& curve, std::size_t position) {
   Eigen::VectorXd damage = Eigen::VectorXd::Zero(std::ssize(model.positions[position].points));
   for (const SpectrumCase& load_case : spectrum) {
-    const double cycles = load_cycles(model.pair, member, load_case.revolutions, load_case.same_teeth);
+    const double cycles = load_cycles(model.pair, member, load_case.operation);
     const Eigen::VectorXd& stress = load_case.cycle->positions[position].contact_stress;
     for (Eigen::Index j = 0; j < damage.size(); ++j) damage[j] += cycles * curve.damage(stress[j]).value;
   }
@@ -51,7 +51,7 @@ DamageSum contact_damage_at(const MeshModel& model, const LoadSpectrum& spectrum
   for (const SpectrumCase& load_case : spectrum) {
     const LoadedPosition& there = load_case.cycle->positions[position];
     const bool has_slopes = there.contact_stress_derivative.cols() > 0;
-    add(sum, curve, load_cycles(model.pair, member, load_case.revolutions, load_case.same_teeth), there.contact_stress[point],
+    add(sum, curve, load_cycles(model.pair, member, load_case.operation), there.contact_stress[point],
         has_slopes ? Eigen::RowVectorXd(there.contact_stress_derivative.row(point)) : Eigen::RowVectorXd());
   }
   return sum;
@@ -79,7 +79,7 @@ FilletPoints fillet_points(const MeshModel& model, Member member) {
 Eigen::VectorXd root_damage(const MeshModel& model, const LoadSpectrum& spectrum, Member member, const SnCurve& curve, const FilletPoints& points) {
   Eigen::VectorXd damage = Eigen::VectorXd::Zero(points.count);
   for (const SpectrumCase& load_case : spectrum) {
-    const double cycles = load_cycles(model.pair, member, load_case.revolutions, load_case.same_teeth);
+    const double cycles = load_cycles(model.pair, member, load_case.operation);
     for (Eigen::Index p = 0; p < points.count; ++p) damage[p] += cycles * curve.damage(largest_at(*load_case.cycle, points, p).stress).value;
   }
   return damage;
@@ -95,7 +95,7 @@ DamageSum root_damage_at(const MeshModel& model, const LoadSpectrum& spectrum, M
     Eigen::RowVectorXd slope;
     if (has_slopes && largest.station >= 0) slope = root_stress_derivative(model.positions[largest.position], there, largest.station);
     if (has_slopes && largest.station < 0) slope = Eigen::RowVectorXd::Zero(there.line_load_derivative.cols());
-    add(sum, curve, load_cycles(model.pair, member, load_case.revolutions, load_case.same_teeth), largest.stress, slope);
+    add(sum, curve, load_cycles(model.pair, member, load_case.operation), largest.stress, slope);
   }
   return sum;
 }

@@ -19,8 +19,7 @@ struct FatigueStrength {
 /// One load case of a spectrum. All load cases of a spectrum have the same mesh model.
 struct SpectrumCase {
   const LoadedCycle* cycle{nullptr};  ///< usable()
-  double revolutions{0.0};            ///< of the pinion, >= 0 [-]
-  bool same_teeth{false};             ///< as Operation::same_teeth
+  Operation operation{};              ///< its revolutions, and how often teeth are loaded in each
 };
 using LoadSpectrum = std::vector<SpectrumCase>;
 

@@ -14,11 +14,15 @@ struct Operation {
   double temperature{not_given};  ///< of the oil [deg C]
   /// The same teeth stay in mesh: each load cycle is one of both gears' teeth, and `revolutions` is their number.
   bool same_teeth{false};
+  PerGear<int> meshes_per_revolution{1, 1};  ///< of each gear on the flank that this pair loads, the other ones as much as this [-], >= 1
 };
 
-/// Load cycles of each tooth of a gear in so many revolutions of the pinion; of teeth that stay in mesh, as many as of the pinion's.
-inline double load_cycles(const GearPair& pair, Member member, double pinion_revolutions, bool same_teeth) {
-  return member == Member::Pinion || same_teeth ? pinion_revolutions : pinion_revolutions / pair.gear_ratio();
+/// Load cycles of each tooth of a gear. Teeth that stay in mesh have as many as the pinion's; others one in each of the meshes that they pass in a revolution of
+/// their gear [ISO 6336-1:2006: the number of load cycles counts every mesh of a flank].
+inline double load_cycles(const GearPair& pair, Member member, const Operation& operation) {
+  if (operation.same_teeth) return operation.revolutions;
+  const double revolutions = member == Member::Pinion ? operation.revolutions : operation.revolutions / pair.gear_ratio();
+  return operation.meshes_per_revolution[member] * revolutions;
 }
 
 }  // namespace flankwright

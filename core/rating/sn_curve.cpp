@@ -1,5 +1,6 @@
 #include "core/rating/sn_curve.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -53,7 +54,9 @@ double SnCurve::cycles_to_failure(double stress) const {
   return knee * std::pow(limit / stress, stress >= limit ? exponent : exponent_beyond);
 }
 
-double SnCurve::stress_for(double cycles) const { return limit * std::pow(knee / cycles, 1.0 / (cycles <= knee ? exponent : exponent_beyond)); }
+double SnCurve::stress_for(double cycles) const {
+  return std::min(static_limit, limit * std::pow(knee / cycles, 1.0 / (cycles <= knee ? exponent : exponent_beyond)));
+}
 
 SnCurve::Damage SnCurve::damage(double stress) const {
   if (!(stress > 0.0)) return {};

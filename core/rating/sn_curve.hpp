@@ -24,7 +24,7 @@ struct SnCurve {
 
   /// N; infinite without stress [-].
   double cycles_to_failure(double stress) const;
-  /// The stress that is borne for N cycles, limit * life factor [MPa].
+  /// The stress that is borne for N cycles, limit * life factor, at most the static limit [MPa].
   double stress_for(double cycles) const;
 
   struct Damage {

@@ -84,7 +84,7 @@ LoadedScene DesignProblem::scene(const DesignAnalysis& analysis, int scene) cons
   if (spectrum < 0) return found;
   for (std::size_t s = 0; s < task_.scenes.size(); ++s) {
     const DesignScene& of = task_.scenes[s];
-    if (of.spectrum == spectrum) found.spectrum.push_back({&analysis.cycles[s], of.operation.revolutions, of.operation.same_teeth});
+    if (of.spectrum == spectrum) found.spectrum.push_back({&analysis.cycles[s], of.operation});
   }
   return found;
 }

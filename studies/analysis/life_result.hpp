@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,7 @@ struct StudyLife {
   double ohlendorf{not_given};  ///< H_V [-]
   std::vector<CaseLife> cases;  ///< one for each of the results' loaded entries that is usable
   std::vector<SpectrumLife> spectra;
+  std::set<std::string> not_summed;  ///< of which spectrum the damage has no sum, and why: a sentence each
 
   /// Of an entry of StudyResults::loaded; null where it has none.
   const CaseLife* find(std::size_t loaded) const {

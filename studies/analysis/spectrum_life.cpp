@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "core/fidelity/cycle_error.hpp"
 #include "core/rating/contact_temperature.hpp"
@@ -126,7 +127,7 @@ void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResul
   of.K_F = of.K_H / K_Hbeta * root_face_load_factor(model.pair, model.face_width, K_Hbeta);
   for (const Member m : both_gears) {
     const FatigueStrength& strength = life.strength[m];
-    const double cycles = load_cycles(model.pair, m, loaded.operation.revolutions, loaded.operation.same_teeth);
+    const double cycles = load_cycles(model.pair, m, loaded.operation);
     of.iso_contact[m] = of.iso.contact_stress(m, of.K_H);
     of.iso_root[m] = of.iso.root_stress(m, of.K_F);
     of.contact_safety[m] = stress_safety(strength.contact, cycles, loaded.summary.peak_contact_stress);
@@ -160,8 +161,7 @@ class SpectrumRating {
  public:
   SpectrumRating(const StudyResults& results, const LifeModel& life, std::vector<CaseLife>& cases, SpectrumLife& spectrum)
       : results_(results), life_(life), cases_(cases), spectrum_(spectrum), model_(results.models[loaded(0).model]) {
-    for (std::size_t k = 0; k < spectrum.cases.size(); ++k)
-      loads_.push_back({&loaded(k).cycle, loaded(k).operation.revolutions, loaded(k).operation.same_teeth});
+    for (std::size_t k = 0; k < spectrum.cases.size(); ++k) loads_.push_back({&loaded(k).cycle, loaded(k).operation});
   }
 
   void rate() {
@@ -181,7 +181,7 @@ class SpectrumRating {
   /// Damage of one load case at a stress that is larger by its relative error, less that at the stress.
   double added_damage(Member m, std::size_t k, const SnCurve& curve, double stress, double relative_error) const {
     if (std::isnan(relative_error)) return not_given;
-    const double cycles = load_cycles(model_.pair, m, loads_[k].revolutions, loads_[k].same_teeth);
+    const double cycles = load_cycles(model_.pair, m, loads_[k].operation);
     return cycles * (curve.damage(stress * (1.0 + relative_error)).value - curve.damage(stress).value);
   }
 
@@ -258,13 +258,24 @@ std::vector<SpectrumLife> spectra_of(const StudyResults& results, const std::vec
   return spectra;
 }
 
-/// Damage is a sum over one mesh's points: all load cases have it, and all were solved.
-bool can_be_summed(const StudyResults& results, const std::vector<CaseLife>& cases, const SpectrumLife& spectrum) {
-  const auto of = [&](std::size_t c) -> const LoadedResult& { return results.loaded[cases[c].loaded]; };
-  const std::size_t loads =
-      static_cast<std::size_t>(std::ranges::count_if(results.study.spectrum, [](const SpectrumBin& bin) { return bin.torque > 0.0; }));
-  return spectrum.cases.size() == loads &&
-         std::ranges::all_of(spectrum.cases, [&](std::size_t c) { return of(c).model == of(spectrum.cases.front()).model; });
+/// Whether the points of two meshes are the same points of the flanks. Those of one pair are where shafts lie differently under different loads.
+bool have_same_points(const MeshModel& one, const MeshModel& other) {
+  const auto same = [](const ContactPoint& a, const ContactPoint& b) {
+    return a.tooth == b.tooth && a.z == b.z && a.pinion_radius == b.pinion_radius;
+  };
+  return &one == &other || std::ranges::equal(one.positions, other.positions, [&](const MeshPosition& a, const MeshPosition& b) {
+    return std::ranges::equal(a.points, b.points, same) && a.root_stress.stations.size() == b.root_stress.stations.size();
+  });
+}
+
+/// Why the damage of a spectrum has no sum; nothing where it has: all load cases were solved, and their meshes have the same points.
+std::optional<std::string> why_not_summed(const StudyResults& results, const std::vector<CaseLife>& cases, const SpectrumLife& spectrum) {
+  const auto model_of = [&](std::size_t c) -> const MeshModel& { return results.models[results.loaded[cases[c].loaded].model]; };
+  const auto loads = std::ranges::count_if(results.study.spectrum, [](const SpectrumBin& bin) { return bin.torque > 0.0; });
+  if (std::ssize(spectrum.cases) != loads) return "not all of its load cases were solved";
+  const MeshModel& first = model_of(spectrum.cases.front());
+  if (std::ranges::all_of(spectrum.cases, [&](std::size_t c) { return have_same_points(model_of(c), first); })) return std::nullopt;
+  return "its load cases move the points of contact on the flanks, as fidelity.gap = \"whole_surface\" follows them";
 }
 
 }  // namespace
@@ -287,7 +298,11 @@ std::optional<StudyLife> study_life(const StudyResults& results, const CoarseCyc
     if (const std::optional<CoarseCycle> coarse = coarse_of ? coarse_of(loaded) : std::nullopt) add_errors(model, *life, loaded, *coarse, of);
   });
   found.spectra = spectra_of(results, found.cases);
-  std::erase_if(found.spectra, [&](const SpectrumLife& spectrum) { return !can_be_summed(results, found.cases, spectrum); });
+  std::erase_if(found.spectra, [&](const SpectrumLife& spectrum) {
+    const std::optional<std::string> why = why_not_summed(results, found.cases, spectrum);
+    if (why) found.not_summed.insert("the damage of the load spectrum in the scene \"" + spectrum.scene + "\" is not summed: " + *why);
+    return why.has_value();
+  });
   for (SpectrumLife& spectrum : found.spectra) SpectrumRating(results, *life, found.cases, spectrum).rate();
   return found;
 }

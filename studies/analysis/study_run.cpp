@@ -96,7 +96,7 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
       loaded.deviations = scene.deviations;
       if (bins.empty()) continue;
       const SpectrumBin& bin = bins[k];
-      loaded.operation = {bin.cycles, bin.speed, bin.hours, bin.temperature, bin.same_teeth};
+      loaded.operation = {bin.cycles, bin.speed, bin.hours, bin.temperature, bin.same_teeth, results_.study.life.meshes_per_revolution};
       loaded.weight *= bin.cycles / revolutions;
       loaded.spectrum = static_cast<int>(number);
       loaded.bin = static_cast<int>(k);
@@ -331,6 +331,7 @@ void StudyRun::rate() {
 void StudyRun::rate_life() {
   results_.life_model = life_model(study());
   results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
+  if (results_.life) results_.notes.insert(results_.notes.end(), results_.life->not_summed.begin(), results_.life->not_summed.end());
 }
 
 void StudyRun::find_edge_contact() {

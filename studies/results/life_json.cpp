@@ -143,7 +143,8 @@ Json life_json(const StudyResults& results) {
   const StudyLife& life = *results.life;
   Json json{{"ohlendorf_loss_factor", life.ohlendorf}};
   for (const Member m : both_gears) {
-    json[name_of(m)] = {{"contact_sn_curve", sn_curve_json(results.life_model->strength[m].contact)},
+    json[name_of(m)] = {{"meshes_per_revolution", results.study.life.meshes_per_revolution[m]},
+                        {"contact_sn_curve", sn_curve_json(results.life_model->strength[m].contact)},
                         {"root_sn_curve", sn_curve_json(results.life_model->strength[m].root)}};
     if (results.study.life.grade[m]) json[name_of(m)]["strength"] = grade_json(results.study.life, m);
   }

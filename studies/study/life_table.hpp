@@ -55,6 +55,7 @@ struct GivenSnCurve {
 
 /// Materials as far as life goes, and [lubricant].
 struct LifeTable {
+  PerGear<int> meshes_per_revolution{0, 0};     ///< as Operation::meshes_per_revolution; 0: not given, those of the unit
   PerGear<std::optional<MaterialGrade>> grade;  ///< a material named by ISO 6336-5
   PerGear<GivenSnCurve> contact, root;
   bool has_lubricant{false};

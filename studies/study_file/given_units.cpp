@@ -39,6 +39,12 @@ std::string_view unit_of_given(const GivenValue& given) {
     }
     break;
   }
+  // Keys of a list's tables have its index in them: "load.spectrum.1.torque".
+  for (std::size_t dot = key.find('.'); dot != std::string_view::npos; dot = key.find('.', dot + 1)) {
+    const std::size_t end = key.find_first_not_of("0123456789", dot + 1);
+    if (end == dot + 1 || end == std::string_view::npos || key[end] != '.') continue;
+    return unit_of(element_keys(std::string(key.substr(0, dot))), std::string(key.substr(end + 1)));
+  }
   return unit_of(study_keys(), std::string(key));
 }
 

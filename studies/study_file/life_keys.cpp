@@ -153,6 +153,9 @@ std::vector<SchemaKey> life_rows() {
   append_grade<true>(rows, "");
   append_curve<&LifeTable::contact, true>(rows, "", "contact", contact_meaning);
   append_curve<&LifeTable::root, true>(rows, "", "root", root_meaning);
+  rows.push_back({.path = "gear.meshes_per_revolution", .kind = Integer, .range = {.low = 1, .high = 100}, .fallback = "(1, with [unit] those of this gear on the same flank)",
+                  .meaning = "load cycles of each tooth in a revolution of its gear, where several gears load the same flank as much as the one of this pair",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) { life(d).meshes_per_revolution[m] = static_cast<int>(v.integer); }});
   append_grade<false>(rows, "gear.");
   append_curve<&LifeTable::contact, false>(rows, "gear.", "contact", contact_meaning);
   append_curve<&LifeTable::root, false>(rows, "gear.", "root", root_meaning);

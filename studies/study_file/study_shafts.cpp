@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 #include "core/compliance/shaft/unit_checks.hpp"
 #include "core/compliance/shaft/unit_statics.hpp"
@@ -41,7 +42,7 @@ void read_shaft(StudyReading& reading, Member member) {
 void read_unit(StudyReading& reading) {
   Study& study = reading.builder.study;
   UnitData& unit = study.unit;
-  if (std::isnan(unit.reference_torque) && study.torques.front() > 0.0) unit.reference_torque = study.torques.front();
+  if (const double largest = std::ranges::max(study.torques); std::isnan(unit.reference_torque) && largest > 0.0) unit.reference_torque = largest;
   if (!reading.problems.empty() || !find_problems(study.pair).empty()) return;
   if (!study.shaft.pinion && !study.shaft.wheel) {
     return reading.refuse(reading.where("unit"), "unit", nullptr,
@@ -53,6 +54,35 @@ void read_unit(StudyReading& reading) {
   if (!problems.empty()) return;
   settle_turning_holds(all);
   study.shaft = all.shaft;
+}
+
+/// How often a revolution loads the teeth of the pair's gears, where the study does not say: as often as the unit's meshes do.
+void settle_meshes_per_revolution(StudyReading& reading) {
+  Study& study = reading.builder.study;
+  const bool has_unit = reading.problems.empty() && find_problems(study.pair).empty() && !study.unit.meshes.empty();
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    int& meshes = study.life.meshes_per_revolution[m];
+    if (meshes > 0) continue;
+    meshes = has_unit ? meshes_per_revolution({study.shaft, study.unit}, make_gear_pair(study.pair), m) : 1;
+  }
+}
+
+/// Bearings whose stiffness depends on the load have an equilibrium under each torque, and hold their shafts there.
+void check_equilibria(StudyReading& reading) {
+  const Study& study = reading.builder.study;
+  if (!reading.problems.empty() || !find_problems(study.pair).empty()) return;
+  const std::shared_ptr<const ShaftPair> shafts = make_shafts(study, make_gear_pair(study.pair));
+  if (!shafts || !shafts->depends_on_load()) return;
+  std::set<double> torques;
+  for (const Scene& scene : study.scenes) torques.insert(scene.torques.begin(), scene.torques.end());
+  for (const double torque : torques) {
+    if (!(torque > 0.0)) continue;
+    try {
+      shafts->at_torque(torque);
+    } catch (const InvalidInput& problem) {
+      return refuse(reading, study.spectrum.empty() ? problem.field() : "load.spectrum", problem);
+    }
+  }
 }
 
 }  // namespace
@@ -73,6 +103,8 @@ void read_shafts(StudyReading& reading) {
   } else {
     read_unit(reading);
   }
+  settle_meshes_per_revolution(reading);
+  check_equilibria(reading);
   const bool listed = std::ranges::find(study.fidelity.effects, "shafts") != study.fidelity.effects.end();
   if (!listed || study.shaft.pinion || study.shaft.wheel) return;
   const Match* match = reading.find("fidelity.effects");

@@ -130,6 +130,8 @@ class ShaftPair final : public PairCompliance {
   ClearanceState refined(ClearanceState found, const ShaftPair& tangent, double pinion_torque) const;
   /// These shafts with each such bearing replaced by its tangent.
   ShaftPair with_tangents(const ClearanceState& found, double pinion_torque) const;
+  /// Marks the supports of a shaft's load-dependent bearings as kept. @return whether one was not
+  bool keep_bearings_of(int shaft, std::vector<bool>& kept) const;
   void find_drivers(UnitState& state) const;
   void add_bearings(double pinion_torque, double axial_offset, UnitState& state) const;
   void add_shafts(double pinion_torque, double axial_offset, UnitState& state) const;

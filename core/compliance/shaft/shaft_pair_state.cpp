@@ -47,6 +47,20 @@ ClearanceState ShaftPair::bearing_equilibrium(double pinion_torque) const {
   return solve_bearings(closed(across), stiffness(across, across), nonlinear_bearings_);
 }
 
+bool ShaftPair::keep_bearings_of(int shaft, std::vector<bool>& kept) const {
+  bool more = false;
+  for (const int index : nonlinear_) {
+    const UnitBearing& bearing = supports_.bearings[static_cast<std::size_t>(index)];
+    if (bearing.shaft != shaft && bearing.outer_shaft != shaft) continue;
+    for (std::size_t r = 0; r < 2; ++r) {
+      const auto row = static_cast<std::size_t>(bearing.supports[r]);
+      more = more || !kept[row];
+      kept[row] = true;
+    }
+  }
+  return more;
+}
+
 ShaftPair ShaftPair::with_tangents(const ClearanceState& found, double pinion_torque) const {
   ShaftPair tangent = *this;
   const auto n = static_cast<Eigen::Index>(supports_.supports.size());
@@ -65,15 +79,29 @@ ShaftPair ShaftPair::with_tangents(const ClearanceState& found, double pinion_to
       for (Eigen::Index c = 0; c < 2; ++c) further(row, supports[static_cast<std::size_t>(c)]) += small.compliance(r, c);
     }
   }
-  // What carries nothing is not there.
+  // What carries nothing is not there. A shaft beside the pair's that no force presses to any side stays in the middle of its clearances.
+  std::vector<double> lengths;
+  for (const ShaftData* shaft : shafts_.all()) lengths.push_back(shaft->length());
+  std::optional<LooseMotion> loose;
+  for (;;) {
+    tangent.supports_.supports.clear();
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (kept[i]) tangent.supports_.supports.push_back(supports_.supports[i]);
+    }
+    loose = find_loose_motion(lengths, tangent.supports_.supports);
+    if (!loose || loose->beam == index_.pinion || loose->beam == index_.wheel || !keep_bearings_of(loose->beam, kept)) break;
+  }
+  if (loose) {
+    throw InvalidInput("load.torque", in_words(pinion_torque / units::newton_metre),
+                       "a load that presses the shaft \"" + shafts_.names()[static_cast<std::size_t>(loose->beam)] +
+                           "\" against its bearings: it lies loose within their clearances");
+  }
   std::vector<Eigen::Index> left;
   std::vector<int> index(supports_.supports.size(), -1);
-  tangent.supports_.supports.clear();
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (!kept[i]) continue;
     index[i] = static_cast<int>(left.size());
     left.push_back(static_cast<Eigen::Index>(i));
-    tangent.supports_.supports.push_back(supports_.supports[i]);
   }
   for (UnitBearing& bearing : tangent.supports_.bearings) {
     for (int& support : bearing.supports) support = support < 0 ? -1 : index[static_cast<std::size_t>(support)];
@@ -83,13 +111,6 @@ ShaftPair ShaftPair::with_tangents(const ClearanceState& found, double pinion_to
   tangent.prestrain_ = prestrain(left);
   tangent.nonlinear_.clear();
   tangent.nonlinear_bearings_.clear();
-  std::vector<double> lengths;
-  for (const ShaftData* shaft : shafts_.all()) lengths.push_back(shaft->length());
-  if (const auto loose = find_loose_motion(lengths, tangent.supports_.supports)) {
-    throw InvalidInput("load.torque", in_words(pinion_torque / units::newton_metre),
-                       "a load that presses the shaft \"" + shafts_.names()[static_cast<std::size_t>(loose->beam)] +
-                           "\" against its bearings: it lies loose within their clearances");
-  }
   tangent.system_.emplace(pieces_, tangent.supports_.supports, tangent.supports_.housing);
   return tangent;
 }

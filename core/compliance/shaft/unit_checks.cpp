@@ -21,8 +21,8 @@ class Checking : Findings {
 
   std::vector<InvalidInput> run() {
     for (const auto check :
-         {&Checking::check_shafts, &Checking::check_names, &Checking::check_meshes, &Checking::check_loads, &Checking::check_joints,
-          &Checking::check_housing, &Checking::check_restraints, &Checking::check_torques, &Checking::check_axes}) {
+         {&Checking::check_names, &Checking::check_shafts, &Checking::check_meshes, &Checking::check_places, &Checking::check_loads,
+          &Checking::check_joints, &Checking::check_housing, &Checking::check_restraints, &Checking::check_torques, &Checking::check_axes}) {
       (this->*check)();
       if (!empty()) break;  // what follows needs what came before
     }
@@ -83,9 +83,48 @@ class Checking : Findings {
       require(mesh.normal_module > 0.0, table + "normal_module", mesh.normal_module, "above 0 mm");
       require(!std::isnan(mesh.angle), table + "angle", mesh.angle, "a number");
       if (!empty()) return;
-      const double least = geometry_of(mesh).base_radius[0] + geometry_of(mesh).base_radius[1];
-      require(std::isnan(mesh.centre_distance) || mesh.centre_distance > least, table + "centre_distance", mesh.centre_distance,
-              "above " + in_mm(least) + ", the sum of the base radii");
+      const MeshGeometry of = geometry_of(mesh);
+      const double least = of.base_radius[0] + of.base_radius[1];
+      constexpr double reach = 5.0;  // (a_w - a) / m_n is at most this: addenda of 1.25 m_n, and both profile shifts together 2.5 m_n
+      const double most = of.reference_radius[0] + of.reference_radius[1] + reach * mesh.normal_module;
+      require(std::isnan(mesh.centre_distance) || (mesh.centre_distance > least && mesh.centre_distance <= most), table + "centre_distance",
+              mesh.centre_distance,
+              "above " + in_mm(least) + ", the sum of the base radii, and at most " + in_mm(most) + ", beyond which teeth do not reach each other");
+    }
+  }
+
+  /// A gear's place along a shaft. A width of 0 takes no place.
+  struct Place {
+    std::string table, shaft;
+    double position, width;
+    int teeth;
+    double normal_module;
+  };
+
+  /// Gears that take the same place are one gear with several meshes.
+  void check_places() {
+    std::vector<Place> taken;
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (const std::optional<ShaftData>& shaft = shafts_.shaft[m])
+        taken.push_back({name_of(m), name_of(m), shaft->gear_position, pair_[m].data.face_width, pair_[m].data.teeth, pair_.data.normal_module});
+    }
+    for (std::size_t m = 0; m < unit_.meshes.size(); ++m) {
+      for (std::size_t g = 0; g < 2; ++g) {
+        const UnitGear& gear = unit_.meshes[m].gears[g];
+        const std::string table = "unit.meshes." + std::to_string(m), number = g == 0 ? "_1" : "_2";
+        const Place place{
+            table + ", gear " + std::to_string(g + 1), gear.shaft, gear.position, gear.face_width, gear.teeth, unit_.meshes[m].normal_module};
+        for (const Place& other : taken) {
+          constexpr double round_off = 1e-9;  // gears that touch overlap by at most this part of their widths
+          const bool overlap = place.shaft == other.shaft && place.width > 0.0 && other.width > 0.0 &&
+                               std::abs(place.position - other.position) < (0.5 - round_off) * (place.width + other.width);
+          require(!overlap || (place.teeth == other.teeth && std::abs(place.normal_module / other.normal_module - 1.0) < 1e-6),
+                  table + ".position" + number, place.position,
+                  "a place beside that of " + other.table + " (" + std::to_string(other.teeth) + " teeth, " + in_mm(other.normal_module) +
+                      "), or the same teeth and module: gears that overlap on a shaft are one gear");
+        }
+        taken.push_back(place);
+      }
     }
   }
 

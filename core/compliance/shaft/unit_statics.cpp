@@ -99,6 +99,24 @@ std::vector<BeamLoad> outside_loads(const ShaftsOfPair& shafts, const UnitTorque
   return loads;
 }
 
+bool is_on_pair_gear(const ShaftsOfPair& shafts, const GearPair& pair, Member member, const UnitGear& gear) {
+  const std::optional<ShaftData>& shaft = shafts.shaft[member];
+  if (!shaft || gear.shaft != name_of(member)) return false;
+  return std::abs(gear.position - shaft->gear_position) < 0.5 * (gear.face_width + pair[member].data.face_width);
+}
+
+int meshes_per_revolution(ShaftsOfPair shafts, const GearPair& pair, Member member) {
+  if (pair.data.working_flank == WorkingFlank::Left) shafts.unit = mirrored(std::move(shafts.unit));
+  const UnitTorques torques = torque_balance(shafts, pair);
+  int meshes = 1;
+  for (std::size_t m = 0; m < shafts.unit.meshes.size(); ++m) {
+    const auto same = [&](const UnitGear& gear) { return is_on_pair_gear(shafts, pair, member, gear); };
+    // The torque that a mesh leaves on its gears is of one sign, that of the pair is negative on both.
+    if (std::ranges::any_of(shafts.unit.meshes[m].gears, same) && torques.mesh[m] > 0.0) ++meshes;
+  }
+  return meshes;
+}
+
 double turning_hold(const ShaftsOfPair& shafts, int shaft) {
   const ShaftData& data = *shafts.all()[static_cast<std::size_t>(shaft)];
   if (!std::isnan(data.torque_position)) return data.torque_position;

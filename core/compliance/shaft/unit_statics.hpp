@@ -31,6 +31,11 @@ std::vector<BeamLoad> mesh_loads(const ShaftsOfPair& shafts, const UnitMesh& mes
 /// All that acts on the shafts beside the pair's own mesh, per torque on the pinion [N and N mm per N mm].
 std::vector<BeamLoad> outside_loads(const ShaftsOfPair& shafts, const UnitTorques& torques);
 
+/// How many meshes load the teeth of one of the pair's gears on the flank that the pair loads in a revolution of it: that of the pair, and the unit's on the same gear
+/// whose torque is of the same sign. An idler's second mesh loads the other flank.
+/// @param shafts  as the study has them, without problems
+int meshes_per_revolution(ShaftsOfPair shafts, const GearPair& pair, Member member);
+
 /// Where a shaft is held against turning: its coupling, else the first gear of another mesh, else the first load with a torque [mm]; NaN: nowhere.
 double turning_hold(const ShaftsOfPair& shafts, int shaft);
 /// Tells the pair's shafts, see ShaftData::held_position.

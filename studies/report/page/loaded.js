@@ -197,7 +197,7 @@ function load_factor_table(body, rows) {
     note: symbols("Squared ratios of the peak contact stress to that of the perfect pair on rigid shafts, and the ratio of the peak line loads without spikes. K_Hβ has only deviations along the face and "
       + "shafts, K_Hα only deviations along the profile and from tooth to tooth, K_H all of them; K_H is not the product of the two. Peaks are sought between the "
       + `positions too, with ${fmt(intervals)} intervals along a contact line. Values without spikes leave out short contact lines and `
-      + "line ends on tip edges. ISO 6336 values follow method C with the stiffness of the standard and without the shafts."),
+      + "line ends on tip edges. ISO 6336 values follow method C with the stiffness of the standard, and with f_sh of the shafts where there are any."),
     columns: [...case_columns, { label: "By" },
       { label: "K_Hβ" }, { label: "K_Hα" }, { label: "K_Hβ·K_Hα" }, { label: "K_H" }, { label: "Peak stress", unit: "MPa" }],
     rows: rated.flatMap(lines),

@@ -9,6 +9,9 @@ TEST_CASE("A bare number of a study is shown with the unit of its key", "[studie
   CHECK(unit_of_given({"load.torque", "[100, 200]"}) == "N·m");
   CHECK(unit_of_given({"pinion.modification.tip_relief.amount", "10"}) == "um");
   CHECK(unit_of_given({"scenes.1.misalignment.crossing", "2"}) == "arcmin");
+  CHECK(unit_of_given({"load.spectrum.12.torque", "500"}) == "N·m");
+  CHECK(unit_of_given({"unit.loads.0.force_x", "300"}) == "N");
+  CHECK(unit_of_given({"pinion.shaft.bearings.1.axial_stiffness", "250"}) == "N/um");
   CHECK(unit_of_given({"optimise.variables.pinion.modification.lead_crowning", "[0, 30]"}) == "um");
   CHECK(unit_of_given({"optimise.variables.pinion.modification.tip_relief.height.range", "[1, 8]"}) == "mm");
   CHECK(unit_of_given({"sweep.parameters.load.torque.truncated_normal", "[300, 10, 250, 350]"}) == "N·m");

@@ -13,4 +13,5 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/study_problems_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_shafts_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_unit_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/unit_life_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_syntax_test.cpp)

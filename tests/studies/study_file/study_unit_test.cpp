@@ -191,6 +191,15 @@ TEST_CASE("Units that cannot be are refused with their position in the file", "[
   one_bearing.replace(one_bearing.find(two), two.size(), "{ position = 20 }");
   CHECK_THAT(unit_refusal(one_bearing), Contains("unit.toml:26: unit.shafts.0.bearings") && Contains("held against tilting"));
   CHECK_THAT(unit_refusal(unit_pair), Contains("pinion.shaft.torque_position"));
+  // A name of the pair's is refused where it stands, not where it would take the place of the pair's shaft.
+  std::string named = unit_pair + unit_text;
+  named.replace(named.find("\"input\""), 7, "\"pinion\"");
+  CHECK_THAT(unit_refusal(named), Contains("unit.toml:24: unit.shafts.0.name = pinion"));
+  CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.meshes.0.centre_distance", "200"}}),
+             Contains("unit.meshes.0.centre_distance = 200") && Contains("do not reach each other"));
+  CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.meshes.0.position_2", "125"}, {"unit.meshes.0.face_width_2", "20"}}),
+             Contains("unit.meshes.0.position_2 = 125") && Contains("beside that of pinion (21 teeth"));
+  CHECK(unit_refusal(unit_pair + unit_text, {{"unit.meshes.0.position_2", "100"}, {"unit.meshes.0.face_width_2", "20"}}).empty());  // side by side
 }
 
 }  // namespace flankwright::studies
