@@ -25,6 +25,33 @@ constexpr std::size_t tried_together = 16;
 
 constexpr double round_off = 1e-9;  // of a step: a bound that is a multiple of it counts as one
 
+/// Sets a variable to a number of its steps, the nearest within DesignProblem::set_box().
+void place(const DesignProblem& problem, Eigen::VectorXd& x, int i, double steps) {
+  const DesignVariable& v = problem.task().variables[static_cast<std::size_t>(i)];
+  const double least = std::ceil(problem.unscaled(problem.lower(), i) / v.step - round_off);
+  const double most = std::floor(problem.unscaled(problem.upper(), i) / v.step + round_off);
+  x[i] = std::clamp(v.scaled(std::clamp(steps, least, std::max(least, most)) * v.step), problem.lower()[i], problem.upper()[i]);
+}
+
+Eigen::VectorXd moved(const DesignProblem& problem, const Eigen::VectorXd& from, int i, int by) {
+  Eigen::VectorXd x = from;
+  place(problem, x, i, std::round(problem.unscaled(from, i) / problem.task().variables[static_cast<std::size_t>(i)].step) + by);
+  return x;
+}
+
+/// Whether another modification is tied to a variable.
+bool is_followed(const DesignProblem& problem, int i) {
+  return std::ranges::any_of(problem.task().links, [&](const LinkingConstraint& link) { return link.as == static_cast<std::size_t>(i); });
+}
+
+std::vector<int> stepped_variables(const DesignProblem& problem) {
+  std::vector<int> stepped;
+  for (int i = 0; i < problem.variables(); ++i) {
+    if (problem.task().variables[static_cast<std::size_t>(i)].step > 0.0) stepped.push_back(i);
+  }
+  return stepped;
+}
+
 /// A search over whole numbers of steps; variables without a step keep their values. A worst case is no better where one scene
 /// already reaches the best so far, or one position of it: the scenes that governed last are tried first, of each the positions that decided, and most
 /// designs go no further. Loads start from those of the best design.
@@ -33,12 +60,8 @@ class StepSearch {
   StepSearch(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses) : problem_(problem), most_(most_analyses), exact_(x), x_(x) {
     const DesignAnalysis& exact = problem_.analyse(x, false);
     if (is_usable(exact)) exact_objective_ = problem_.objective(exact);
-    for (int i = 0; i < problem.variables(); ++i) {
-      const DesignVariable& v = variable(i);
-      if (v.step == 0.0) continue;
-      stepped_.push_back(i);
-      place(x_, i, std::round(problem.unscaled(x, i) / v.step));
-    }
+    stepped_ = stepped_variables(problem);
+    for (const int i : stepped_) place(problem_, x_, i, std::round(problem.unscaled(x, i) / variable(i).step));
     first_.resize(static_cast<std::size_t>(problem.scenes()));
     std::iota(first_.begin(), first_.end(), 0);
     if (most_ > 1 && std::isfinite(exact_objective_) && problem.task().scalarisation.empty()) {
@@ -67,20 +90,6 @@ class StepSearch {
 
  private:
   const DesignVariable& variable(int i) const { return problem_.task().variables[static_cast<std::size_t>(i)]; }
-
-  /// Sets variable i to a number of steps, the nearest within DesignProblem::set_box().
-  void place(Eigen::VectorXd& x, int i, double steps) const {
-    const DesignVariable& v = variable(i);
-    const double least = std::ceil(problem_.unscaled(problem_.lower(), i) / v.step - round_off);
-    const double most = std::floor(problem_.unscaled(problem_.upper(), i) / v.step + round_off);
-    x[i] = std::clamp(v.scaled(std::clamp(steps, least, std::max(least, most)) * v.step), problem_.lower()[i], problem_.upper()[i]);
-  }
-
-  Eigen::VectorXd moved(const Eigen::VectorXd& from, int i, int by) const {
-    Eigen::VectorXd x = from;
-    place(x, i, std::round(problem_.unscaled(from, i) / variable(i).step) + by);
-    return x;
-  }
 
   /// The design analysed last.
   RoundedDesign judge(const Eigen::VectorXd& x) {
@@ -226,7 +235,7 @@ class StepSearch {
     std::vector<std::pair<Predicted, Eigen::VectorXd>> found;
     for (unsigned corner = 0; corner < 1U << between.size(); ++corner) {
       Eigen::VectorXd x = x_;
-      for (std::size_t k = 0; k < between.size(); ++k) place(x, between[k], std::floor(steps(between[k])) + (corner >> k & 1U));
+      for (std::size_t k = 0; k < between.size(); ++k) place(problem_, x, between[k], std::floor(steps(between[k])) + (corner >> k & 1U));
       const Predicted predicted = model_ ? predict(x) : Predicted{};
       found.emplace_back(predicted, std::move(x));
     }
@@ -253,7 +262,7 @@ class StepSearch {
     bool improved = false;
     for (std::size_t next = 0; next < moves.size();) {
       std::vector<Eigen::VectorXd> designs;
-      for (std::size_t k = next; k < moves.size(); ++k) designs.push_back(moved(best_.x, moves[k].first, moves[k].second));
+      for (std::size_t k = next; k < moves.size(); ++k) designs.push_back(moved(problem_, best_.x, moves[k].first, moves[k].second));
       const std::optional<std::size_t> better = first_better(designs);
       if (!better) break;
       improved = true;
@@ -270,7 +279,7 @@ class StepSearch {
         for (int by = -reach; by <= reach; ++by) {
           for (int with = -reach; with <= reach; ++with) {
             if (by == 0 || with == 0 || std::max(std::abs(by), std::abs(with)) < reach) continue;
-            designs.push_back(moved(moved(best_.x, stepped_[a], by), stepped_[b], with));
+            designs.push_back(moved(problem_, moved(problem_, best_.x, stepped_[a], by), stepped_[b], with));
           }
         }
       }
@@ -283,11 +292,9 @@ class StepSearch {
     if (!is_feasible(best_) || !model_) return;
     const double most = (1.0 + idle_share) * best_.objective;
     for (const int i : stepped_) {
-      const bool is_followed =
-          std::ranges::any_of(problem_.task().links, [&](const LinkingConstraint& link) { return link.as == static_cast<std::size_t>(i); });
-      if (is_followed) continue;  // at 0 of one the other need not be 0
+      if (is_followed(problem_, i)) continue;  // at 0 of one the other need not be 0
       Eigen::VectorXd x = best_.x;
-      place(x, i, 0.0);
+      place(problem_, x, i, 0.0);
       if (x == best_.x || std::abs(problem_.unscaled(x, i)) > round_off * variable(i).step || analyses_ >= most_) continue;
       const Predicted predicted = predict(x);
       if (predicted.violation > DesignLog::tolerance || predicted.objective > most + objective_margin_) continue;
@@ -316,6 +323,49 @@ class StepSearch {
 
 RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses) {
   return StepSearch(problem, x, most_analyses).run();
+}
+
+Eigen::VectorXd least_on_steps(const DesignProblem& problem, const Eigen::VectorXd& x,
+                               const std::function<StepFigure(const Eigen::VectorXd&)>& figure) {
+  const std::vector<int> stepped = stepped_variables(problem);
+  Eigen::VectorXd best = x;
+  for (const int i : stepped) best = moved(problem, best, i, 0);
+  StepFigure least = figure(best);
+  const auto improve = [&](const std::vector<Eigen::VectorXd>& designs) {
+    bool improved = false;
+    for (const Eigen::VectorXd& design : designs) {
+      const StepFigure of = figure(design);
+      if (!(of < least)) continue;
+      least = of;
+      best = design;
+      improved = true;
+    }
+    return improved;
+  };
+  const auto neighbours = [&](bool in_pairs) {
+    std::vector<Eigen::VectorXd> designs;
+    for (std::size_t a = 0; a < stepped.size(); ++a) {
+      for (const int by : {-1, 1}) {
+        const Eigen::VectorXd one = moved(problem, best, stepped[a], by);
+        if (!in_pairs) designs.push_back(one);
+        for (std::size_t b = a + 1; in_pairs && b < stepped.size(); ++b) {
+          for (const int with : {-1, 1}) designs.push_back(moved(problem, one, stepped[b], with));
+        }
+      }
+    }
+    return designs;
+  };
+  while (improve(neighbours(false)) || improve(neighbours(true))) {
+  }
+  const double most = (1.0 + idle_share) * least.objective;
+  for (const int i : stepped) {
+    Eigen::VectorXd without = best;
+    place(problem, without, i, 0.0);
+    if (is_followed(problem, i) || problem.unscaled(without, i) != 0.0 || without == best) continue;
+    const StepFigure of = figure(without);
+    if (of.violation <= least.violation && of.objective <= most) best = without;
+  }
+  return best;
 }
 
 bool has_steps(const DesignTask& task) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <compare>
+#include <functional>
 
 #include "optimize/design/design_problem.hpp"
 
@@ -26,6 +28,19 @@ struct RoundedDesign {
 /// No global search: the best of all combinations may be missed, not by much near a flat optimum.
 /// @param most_analyses  >= 1; the search ends in order with the best so far
 RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses);
+
+/// A design by something that costs less than an analysis.
+struct StepFigure {
+  double violation{0.0};  ///< [-]; 0 where the design keeps its constraints
+  double objective{0.0};
+  auto operator<=>(const StepFigure&) const = default;
+};
+
+/// Least design on the steps of the variables by such a function, from the nearest steps on: single variables and then pairs of them move by one step as long
+/// as that helps. At the end every variable becomes 0 that the function does not feel, all together within idle_share.
+/// @param x  scaled; variables without a step keep their values
+Eigen::VectorXd least_on_steps(const DesignProblem& problem, const Eigen::VectorXd& x,
+                               const std::function<StepFigure(const Eigen::VectorXd&)>& figure);
 
 /// Relative rise of the objective by rounding beyond which more of the grid is searched [-].
 inline constexpr double dear_rounding = 0.01;

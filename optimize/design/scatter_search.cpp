@@ -30,7 +30,7 @@ constexpr double settled = 2.5e-3;
 constexpr double first_radius = 0.2, level_radius = 0.05, largest_radius = 0.5, least_radius = 1e-3;
 constexpr double poor_share = 0.25, good_share = 0.75;  // of the promised gain, see search_over_draws()
 constexpr std::size_t chunk = 64;                       // draws whose cycles are held at the same time
-constexpr int most_rounding_cycles = 1500, most_rounding_turns = 4;
+constexpr std::size_t most_rounded_designs = 24;
 constexpr int all_draws = std::numeric_limits<int>::max();
 
 class DrawSearch {
@@ -127,6 +127,21 @@ class DrawSearch {
     return judge(problem, x, all_draws);
   }
 
+  /// The design on the steps of the variables that the model has least.
+  Eigen::VectorXd least_on_steps(const DesignProblem& problem, const Eigen::VectorXd& x) const {
+    return flankwright::least_on_steps(problem, x, [&](const Eigen::VectorXd& at) {
+      StepFigure figure{std::max(problem.violation(problem.modification(at)), model_.excess(at, all_draws)),
+                        model_.objective.statistic(model_.objective.measures(at, all_draws))};
+      if (figure.violation <= DesignLog::tolerance) figure.violation = 0.0;
+      return figure;
+    });
+  }
+  /// A design beside the last that was accepted, whose draws the model then knows there too. @param beaten  as judge_all()
+  Judged try_design(const DesignProblem& problem, const Eigen::VectorXd& x, const Judged* beaten) {
+    const Judged judged = judge_all(problem, x, all_draws, beaten);
+    remember(false);
+    return judged;
+  }
   /// The same of a design that was not: on the steps of the variables.
   Judged report_all(const DesignProblem& problem, const Eigen::VectorXd& x) {
     const Judged judged = judge_all(problem, x, all_draws);
@@ -286,41 +301,21 @@ class DrawSearch {
   std::vector<double> measures_, bounds_;
 };
 
-/// The task over the draws that decide, with levels that leave the statistic what it is: a share of the weight.
-DesignProblem reduced(const DesignProblem& full, const std::vector<int>& some) {
-  const std::vector<double> weights = full.scene_weights();
-  double share = 0.0;
-  for (const int s : some) share += weights[static_cast<std::size_t>(s)];
-  share /= std::accumulate(weights.begin(), weights.end(), 0.0);
-  const auto narrowed = [&](Objective objective) {
-    if (!(objective.over == Aggregate::Worst)) objective.over.level = std::max(0.0, 1.0 - (1.0 - objective.over.level) / share);
-    return objective;
-  };
-  std::vector<ObjectiveBound> bounds = full.task().objective_bounds;
-  for (ObjectiveBound& bound : bounds) bound.objective = narrowed(bound.objective);
-  return full.over_scenes(some).judged_by(narrowed(full.task().combined_objective()), std::move(bounds));
-}
-
-/// Rounds over the draws that decide; where others decide at the rounded design, over these as well.
+/// On the steps that the model has least. Each design tried adds what it has to the model: contact that reaches an edge there is not foreseen by the gradients of
+/// the optimum. It ends where what the model has least was tried.
 DrawSearch::Judged round(DrawSearch& search, const DesignProblem& full, ScatterDesign& design) {
   const Eigen::VectorXd exact = design.x;
-  DrawSearch::Judged found;
-  std::set<int> deciding;
-  for (int turn = 0; turn < most_rounding_turns; ++turn) {
-    const std::size_t known = deciding.size();
-    for (const int scene : search.deciding(full)) deciding.insert(scene);
-    if (turn > 0 && deciding.size() == known) break;  // the draws that decide there were rounded over
-    DesignProblem part = reduced(full, {deciding.begin(), deciding.end()});
-    const std::int64_t cycles_before = part.cycles();
-    const RoundedDesign rounded = round_design(part, exact, std::max(1, most_rounding_cycles / part.scenes()));
-    design.cycles += part.cycles() - cycles_before;
-    const bool settles = turn > 0 && rounded.x == design.x;
-    if (settles) break;
-    const DrawSearch::Judged next = search.report_all(full, rounded.x);
-    design.x = rounded.x;
-    found = next;
+  std::vector<Eigen::VectorXd> tried;
+  std::optional<DrawSearch::Judged> best;
+  while (tried.size() < most_rounded_designs) {
+    const Eigen::VectorXd x = search.least_on_steps(full, exact);
+    if (std::ranges::find(tried, x) != tried.end()) break;
+    tried.push_back(x);
+    const DrawSearch::Judged judged = search.try_design(full, x, best ? &*best : nullptr);
+    if (!best || best->gain_to(judged) > 0.0) best = judged;
   }
-  return found;
+  design.x = best->x;
+  return search.report_all(full, design.x);
 }
 
 }  // namespace
