@@ -16,6 +16,11 @@ FormWheelContact::FormWheelContact(const GearPair& pair, Member member, double w
       axis_distance_(0.5 * wheel_diameter + pair[member].root_radius),
       wheel_diameter_(wheel_diameter) {
   const Gear& gear = pair[member];
+  const double depth = gear.tip_radius - gear.root_radius;
+  if (!(0.5 * wheel_diameter > depth)) {
+    throw InvalidInput("grinding_wheel_diameter", in_words(wheel_diameter) + " mm",
+                       "above " + in_words(2.0 * depth) + " mm, twice the depth of a tooth: the wheel turns outside the tip circle");
+  }
   const double half_space = units::pi / gear.data.teeth - 0.5 * gear.tooth_thickness / gear.reference_radius;
   start_ = involute(pair.transverse_pressure_angle) - half_space;
 }

@@ -58,6 +58,11 @@ struct DesignResult {
   static constexpr double same_objective = 1e-3;
   bool is_multimodal() const { return optima.size() > 1; }
   /// Relative increase of the objective by choices and steps [-]; NaN without either.
+  /// The part of it that the choices make: of the last one's design [-]; 0 without choices, NaN without either.
+  double choice_loss() const {
+    if (!exact) return not_given;
+    return choices.empty() ? 0.0 : choices.back().tried[choices.back().taken].objective / exact->objective - 1.0;
+  }
   double rounding_loss() const { return exact ? after.objective / exact->objective - 1.0 : not_given; }
 };
 

@@ -31,6 +31,36 @@ void note_crowning(const Modification& given, const Gear& gear, std::vector<std:
   }
 }
 
+/// A relief that is longer than the flank is no relief: it goes on to the other end.
+void note_long_reliefs(const Study& study, const Gear& gear, std::vector<std::string>& notes) {
+  for (const ModificationDescriptor& amount : modification_parameters) {
+    if (amount.extent.empty()) continue;
+    const ModificationDescriptor& extent = *find_parameter(amount.extent);
+    const auto varied = [&](const ModificationDescriptor& d) {
+      const auto found = std::ranges::find_if(study.optimise.variables, [&](const DesignVariable& v) { return v.touches(gear.member, d.parameter); });
+      return found == study.optimise.variables.end() ? nullptr : &*found;
+    };
+    const Modification& given = study.modification[gear.member];
+    const DesignVariable* range = varied(extent);
+    if (amount.get(given) == 0.0 && varied(amount) == nullptr) continue;
+    const double longest = range != nullptr ? range->upper : extent.get(given);
+    const bool along_face = extent.flank_class == ModificationClass::Lead;
+    const double flank = along_face ? 0.5 * gear.data.face_width : gear.tip_form_radius - gear.active_root_radius;
+    if (!(longest > flank)) continue;
+    notes.push_back(fmt::format("the {}'s {} {} {:.3g} mm, more than {} of {:.3g} mm: it is no relief then, but changes the whole {}",
+                                name_of(gear.member), extent.name, range != nullptr ? "may reach" : "is", longest,
+                                along_face ? "half the face" : "the active height", flank, along_face ? "lead" : "profile"));
+  }
+}
+
+/// A quantile, or the mean beyond one, of fewer draws than one in which a single one lies beyond it.
+void note_few_draws(const ScatterTable& scatter, std::vector<std::string>& notes) {
+  const bool has_tail = scatter.statistic == Aggregate::Quantile || scatter.statistic == Aggregate::Cvar;
+  if (!scatter.asked() || !has_tail || scatter.draws * (1.0 - scatter.statistic.level) >= 1.0) return;
+  notes.push_back(fmt::format("the {:g} % quantile over {} draws is the largest of them: it takes {:.0f} for one to lie beyond it",
+                              100.0 * scatter.statistic.level, scatter.draws, std::ceil(1.0 / (1.0 - scatter.statistic.level) - 1e-9)));
+}
+
 /// A lead modification of a helical gear without a process: what twist grinding would bring. One that only an optimisation varies is taken as 1 um of
 /// crowning.
 void note_natural_twist(const Study& study, const GearPair& pair, Member m, std::vector<std::string>& notes) {
@@ -155,6 +185,9 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   }
   note_crowning(study.modification.pinion, pair.pinion, notes);
   note_crowning(study.modification.wheel, pair.wheel, notes);
+  note_long_reliefs(study, pair.pinion, notes);
+  note_long_reliefs(study, pair.wheel, notes);
+  note_few_draws(study.optimise.scatter, notes);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
     note_unused_process_data(study, m, notes);

@@ -22,12 +22,13 @@ Progress::~Progress() { finish(); }
 void Progress::show(const std::string& label, int done, int total, const std::string& remark) {
   const Clock::time_point now = Clock::now();
   const bool last = total > 0 && done >= total;
-  if (label != label_) {
+  const bool is_new = label != label_;
+  if (is_new) {
     label_ = label;
     label_start_ = now;
     done_before_ = done;
   }
-  if (quiet_ || (!last && now - last_shown_ < (terminal_ ? std::chrono::milliseconds(redraw) : repeat))) return;
+  if (quiet_ || (!last && !is_new && now - last_shown_ < (terminal_ ? std::chrono::milliseconds(redraw) : repeat))) return;
   last_shown_ = now;
   const double seconds = std::chrono::duration<double>(now - start_).count();
   std::string text;

@@ -41,6 +41,40 @@ std::string tolerance_line(const char* symbol, double tolerance, bool either_way
   return fmt::format("{} = {}{:g} µm", symbol, either_way ? "± " : "", in_um(rounded_tolerance(tolerance)));
 }
 
+/// A length with the decimals that it has, from `least` to 3; one that needs more with the least: it is no multiple of a grinder's step.
+std::string in_decimals(double value, int least) {
+  for (int places = least; places <= 3; ++places) {
+    const double scaled = value * std::pow(10.0, places);
+    if (std::abs(scaled - std::round(scaled)) < 1e-6) return fmt::format("{:.{}f}", value, places);  // 1e-6 of a place is round-off
+  }
+  return fmt::format("{:.{}f}", value, least);
+}
+
+std::string value_in_words(const ModificationDescriptor& d, double value) {
+  switch (d.kind) {
+    case ParameterKind::Amount:
+      return in_decimals(value, 1) + " µm";
+    case ParameterKind::Extent:
+      return in_decimals(value, 2) + " mm";
+    default:
+      return fmt::format("{:.3g} {}", value, unit_of(d.kind));
+  }
+}
+
+/// ", parabolic" of the amount of a relief that is not of the usual shape.
+std::string shape_in_words(const ModificationDescriptor& d, const Modification& modification) {
+  for (const ModificationChoice& choice : modification_choices) {
+    const std::string_view table = choice.key.substr(0, choice.key.find('.'));
+    if (d.key != std::string(table) + ".amount") continue;
+    for (std::size_t word = 1; word < choice.words.size(); ++word) {
+      Modification other = modification;
+      choice.set(other, word);
+      if (other == modification) return ", " + std::string(choice.words[word]);
+    }
+  }
+  return "";
+}
+
 std::vector<std::string> lines_of(const GearPair& pair, Member member, const Modification& modification, const FlankTolerances& t,
                                   int tolerance_class) {
   std::vector<std::string> lines{"Modifications, material removed:"};
@@ -61,9 +95,8 @@ std::vector<std::string> lines_of(const GearPair& pair, Member member, const Mod
                          });
     if (is_idle || !in_reach(d)) continue;
     const std::string symbol = d.symbol.empty() ? "" : std::string(d.symbol) + ", ";
-    lines.push_back(fmt::format("{}{} = {} {}", symbol, d.name,
-                                fmt::format("{:.{}f}", d.get(modification) * outside_factor(d.kind), is_extent ? 2 : 1),
-                                d.kind == ParameterKind::Amount ? "µm" : unit_of(d.kind)));
+    lines.push_back(
+        fmt::format("{}{} = {}{}", symbol, d.name, value_in_words(d, d.get(modification) * outside_factor(d.kind)), shape_in_words(d, modification)));
   }
   if (lines.size() == 1) lines.emplace_back("none");
   const double twist = natural_twist(pair, member, modification);

@@ -14,7 +14,7 @@ struct ScatterTable {
   Aggregation statistic{Aggregate::Quantile, 2.0, 0.95};
   std::optional<int> iso_1328_class;  ///< of both gears
   std::vector<int> classes;           ///< for each of which the right design is sought as well
-  int predicted_from{500};            ///< draws that the search has not seen, from which its statistic is predicted
+  int predicted_from{2000};           ///< draws that the search has not seen, from which its statistic is predicted
   unsigned long predicted_seed{3};    ///< of them
   int fresh{0};                       ///< draws that the designs are tried on
   unsigned long fresh_seed{2};

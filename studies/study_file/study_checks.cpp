@@ -7,6 +7,7 @@
 
 #include "core/flank/conjugate_field.hpp"
 #include "core/flank/contact_shift.hpp"
+#include "core/gear/flank_tolerances.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "studies/compliance/study_compliance.hpp"
 
@@ -93,6 +94,18 @@ void check_relief(StudyReading& reading, Member m, const ModificationDescriptor&
   const bool is_given = reading.find(path) != nullptr;
   const Position at = reading.where(is_given ? path : asked_by);
   reading.refuse(at, path, is_given ? reading.find(path)->node : nullptr, "set " + path + " above 0 mm: the relief's amount is spread over it");
+}
+
+/// The class of a drawing is that of gears which ISO 1328-1 covers.
+void check_drawing(StudyReading& reading, Member m) {
+  const Study& study = reading.builder.study;
+  if (!study.drawing_class || !find_problems(study.pair).empty()) return;
+  try {
+    flank_tolerances(ToleranceData::of(make_gear_pair(study.pair), m), *study.drawing_class);
+  } catch (const InvalidInput& problem) {
+    reading.refuse_key("drawing.iso_1328_class", "a gear that ISO 1328-1 covers: " + problem.field() + " of the " + name_of(m) + " is " +
+                                                     problem.value() + ", covered is " + problem.allowed());
+  }
 }
 
 /// A predesigned parabola, given or at the upper end of a variable, must have a flank.
@@ -207,6 +220,7 @@ void check_flanks(StudyReading& reading) {
       if (!amount.extent.empty()) check_relief(reading, m, amount, *find_parameter(amount.extent));
     }
     check_parabola(reading, m);
+    check_drawing(reading, m);
     check_process(reading, m);
     check_finite_elements(reading, m);
   }

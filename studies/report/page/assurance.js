@@ -34,13 +34,14 @@ function draw_spread(plot, validation, unit) {
 function error_facts(optimise) {
   const before = record(optimise.before), after = record(optimise.after), unit = pretty_unit(optimise.objective_unit);
   if (!is_number(after.objective_error)) return [["Discretisation", "its error was not estimated"]];
+  if (scatter_of(optimise)) return [["Listed scenes", `${with_error(before.objective, before.objective_error, 4)} → ${with_error(after.objective, after.objective_error, 4)} ${unit}`]];
   const gain = before.objective - after.objective, error = Math.hypot(before.objective_error ?? 0, after.objective_error);
   const times = Math.abs(gain) / error;
   return [
     ["Before", `${with_error(before.objective, before.objective_error, 4)} ${unit}`],
     ["After", `${with_error(after.objective, after.objective_error, 4)} ${unit}`],
     ["Gain", `${with_error(gain, error, 3)} ${unit}`],
-    ["Gain / error", times >= 100 ? "above 100" : fmt(times, 2), times < 2 ? "bad" : times >= 5 ? "good" : null],
+    ["Gain / error", times >= 100 ? "above 100" : fmt(times, 2), times < 2 || gain < 0 ? "bad" : times >= 5 ? "good" : null],
   ];
 }
 
@@ -66,24 +67,16 @@ function rule_fact(optimise) {
   return ["Best rule of thumb", el("span", { title: best.name }, `${value}, ${beside}`), best.objective < after ? "bad" : null];
 }
 
-/** What drawn gears have of the design that was chosen over them. */
-function scatter_fact(optimise) {
-  const scatter = record(optimise.scatter), fresh = record(scatter.fresh);
-  const after = list(fresh.designs).map(record).find((design) => design.name === "after");
-  if (!is_number(scatter.value)) return null;
-  const said = `${scatter.statistic_in_words} ${fmt(scatter.value, 3)}`, unit = pretty_unit(scatter.unit);
-  return ["Drawn gears", after ? `${said}; fresh ones ${fmt(after.statistic, 3)} ${unit}` : `${said} ${unit}`];
-}
-
 function assurance_panel(plot, results) {
   const optimise = record(results.optimise), unit = pretty_unit(optimise.objective_unit);
   const seen = record(optimise.assessment).objective_seen_by_search;
   const validation = record(optimise.validation), share = validation.share_better_than_before;
-  const ended = optimise.status ? [words(optimise.status), /converged|success|optimal/i.test(optimise.status) ? "" : "bad"] : null;
+  const scatter = scatter_of(optimise), status = scatter ? scatter.status : optimise.status;
+  const ended = status ? [words(status), /converged|success|optimal/i.test(status) ? "" : "bad"] : null;
   plot.append(facts([
-    ...error_facts(optimise),
+    ...(scatter ? drawn_facts(scatter) : []), ...error_facts(optimise),
     is_number(seen) ? ["Seen by the search", `${fmt(seen, 4)} ${unit}`] : null,
-    rule_fact(optimise), scatter_fact(optimise),
+    rule_fact(optimise),
     ended ? ["Search", ...ended] : null,
     starts_fact(optimise),
     is_number(share) ? ["Fresh scenes", `better in ${fmt(100 * share, 3)} % of ${fmt(validation.samples, 7)}`, share > 0.95 ? "good" : share < 0.5 ? "bad" : null]

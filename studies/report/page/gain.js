@@ -22,7 +22,7 @@ function draw_pairs(plot, rows, unit) {
       if (!is_number(row[design])) return;
       const top = paired ? y + 8 * k : y + 3, thickness = paired ? 7 : 11, error = row[`${design}_error`];
       picture.append(svg("rect", { x: left, y: top, width: Math.max(1, to_x(row[design]) - left), height: thickness, rx: 1.5, fill: design_colour(design) },
-        svg("title", {}, `${row.label}, ${design}: ${with_error(row[design], error, 4)} ${unit}`)));
+        svg("title", {}, `${row.label}${paired ? `, ${design}` : ""}: ${with_error(row[design], error, 4)} ${unit}`)));
       if (error > 0) {
         picture.append(svg("line", { x1: to_x(row[design] - error), x2: to_x(row[design] + error), y1: top + thickness / 2, y2: top + thickness / 2, class: "whisker" }));
       }
@@ -71,10 +71,14 @@ function gain_panel(plot, results) {
   const shown = scenes.slice(0, MOST_SCENES - Math.min(3, constraint_rows(optimise).length));
   plot.append(el("p", { class: "key" },
     el("span", { class: "dot", style: `background:${design_colour("before")}` }), " before   ",
-    el("span", { class: "dot", style: `background:${design_colour("after")}` }), ` after${unit ? `   [${unit}]` : ""}${shown.some((s) => s.governs) ? "   bold: governs" : ""}`));
-  if (shown.length > 0) draw_pairs(plot, shown.map((scene) => ({ ...scene, label: label(scene), strong: scene.governs !== 0 })), unit);
+    el("span", { class: "dot", style: `background:${design_colour("after")}` }), ` after${unit ? `   [${unit}]` : ""}${scatter_of(optimise) ? "" : shown.some((s) => s.governs) ? "   bold: governs" : ""}`));
+  const scatter = scatter_of(optimise), drawn = scatter ? ["before", "after"].map((design) => fresh_statistic(scatter, design)) : [];
+  const over_draws = drawn.every(is_number) && scatter ? [{ label: `${scatter.statistic_in_words}, drawn`, before: drawn[0], after: drawn[1], strong: true }] : [];
+  const in_scenes = shown.map((scene) => ({ ...scene, label: label(scene), strong: !scatter && scene.governs !== 0 }));
+  if (shown.length > 0) draw_pairs(plot, [...over_draws, ...in_scenes], unit);
   const rest = scenes.length - shown.length;
   const sentence = [scenes_sentence(scenes, label), rest > 0 ? `${rest} more below.` : null].filter(Boolean).join(" ");
   if (sentence) plot.append(el("p", { class: "fine" }, sentence));
+  if (scatter) plot.append(el("p", { class: "fine" }, "The design is the one for the drawn gears. The listed scenes did not decide."));
   plot.append(facts([...later_facts(optimise), ...constraint_facts(optimise)]));
 }

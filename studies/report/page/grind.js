@@ -31,9 +31,19 @@ function grinding_rows(results) {
   const from = { ...record(before.variables), ...record(before.tied) }, to = { ...record(after.variables), ...record(after.tied) };
   const is_modification = (key) => /^(pinion|wheel)\.modification\./.test(key);
   const kept = list(results.given).map(record).filter(({ key }) => is_modification(`${key}`) && !(key in to));
-  const at_bound = (key) => list(record(optimise.governing).bounds).map(record).find((bound) => bound.variable === key)?.side;
+  // The governing bounds are those of the optimum before choices, steps and scatter: the design that is ground has its own.
+  const at_bound = (key, value, step) => {
+    const range = `${given_value(results, `optimise.variables.${key}.range`) ?? given_value(results, `optimise.variables.${key}`) ?? ""}`;
+    const [low, high] = (/^\[([^,\]]+),([^,\]]+)\]$/.exec(range)?.slice(1) ?? []).map((bound) => Number(bound.replace(/^\s*"|\s*(um)?"\s*$/g, "")));
+    if (!Number.isFinite(low) || !Number.isFinite(high) || !is_number(value)) return undefined;
+    const near = Math.max(0.5 * (step ?? 0), 1e-4 * (high - low));
+    return Math.abs(value - low) < near ? "lower" : Math.abs(value - high) < near ? "upper" : undefined;
+  };
   const rows = [
-    ...Object.keys(to).map((key) => ({ key, before: from[key], after: to[key], unit: units[key], step: grinding_step(results, key, units[key]), bound: at_bound(key) })),
+    ...Object.keys(to).map((key) => {
+      const step = grinding_step(results, key, units[key]);
+      return { key, before: from[key], after: to[key], unit: units[key], step, bound: at_bound(key, to[key], step) };
+    }),
     ...kept.map(({ key, value, unit }) => {
       const number = Number(value);
       return Number.isFinite(number) ? { key, before: number, after: number, unit, step: null, given: true }
@@ -85,10 +95,18 @@ function grinding_table(plot, results) {
   }
   plot.append(el("table", { class: "grinding" },
     el("tbody", {}, ...body)));
-  const rounded = record(record(results.optimise).rounded), stepped = results.optimise.rounded !== undefined && is_number(rounded.loss_percent);
-  const has_steps = grinding_rows(results).some((row) => row.step > 0), made = has_steps ? "In the grinder's steps" : "Without what cannot be ground";
-  plot.append(el("p", { class: "fine" }, stepped ? `${made}, at a cost of ${fmt(Math.max(0, rounded.loss_percent), 2)} %. ${amounts_count(results)}`
-    : `Rounded to 0.1 µm and 0.1 mm. ${amounts_count(results)}`));
+  plot.append(el("p", { class: "fine" }, `${rounding_sentence(results)} ${amounts_count(results)}`));
+}
+
+/** What choices and steps cost: "In the grinder's steps, at a cost of 1.8 %." */
+function rounding_sentence(results) {
+  const optimise = record(results.optimise), { loss_percent: all, choices_loss_percent: choices = 0 } = record(optimise.rounded);
+  const own_steps = grinding_rows(results).some((row) => Number(given_value(results, `optimise.variables.${row.key}.step`)) > 0) || Number(given_value(results, "optimise.step")) > 0;
+  if (!is_number(all)) return own_steps ? "In the grinder's steps." : "Rounded to 0.1 µm and 0.1 mm.";
+  const cost = (percent) => `at a cost of ${fmt(Math.max(0, percent), 2)} %`;
+  const steps = 100 * ((1 + all / 100) / (1 + choices / 100) - 1);
+  if (!(Math.abs(choices) > 0)) return `${own_steps ? "In the grinder's steps" : "Without what cannot be ground"}, ${cost(all)}.`;
+  return `Without what cannot be ground, ${cost(choices)}${own_steps ? `; in the grinder's steps, at ${fmt(Math.max(0, steps), 2)} % more` : ""}.`;
 }
 
 /** The flanks to grind, each as a small map with contour lines, on one scale. */

@@ -2,6 +2,10 @@
 
 function build_governing(results, body) {
   const optimise = record(results.optimise), governing = record(optimise.governing);
+  const is_left = optimise.exact !== undefined || scatter_of(optimise);
+  if (is_left && list(governing.words).length > 0) {
+    body.append(el("p", { class: "fine" }, optimise.scatter ? "Of the optimum over the listed scenes, before gears were drawn:" : "Of the optimum before what cannot be ground was left out and amounts were rounded:"));
+  }
   body.append(el("ul", { class: "statements" }, ...list(governing.words).map((sentence) => el("li", {}, pretty_unit(sentence)))));
   const usual = record(optimise.usual_signs);
   if (typeof usual.words === "string") body.append(el("p", { class: "banner" }, pretty_unit(usual.words)));

@@ -36,8 +36,12 @@ function limit_words({ name, unit, seen, limit, sense }, optimise) {
  * where no design keeps one, that instead.
  */
 function optimise_headline(optimise) {
+  const scatter = scatter_of(optimise);
+  if (scatter) return scatter_headline(optimise, scatter);
   const exceeded = most_exceeded(optimise, "after"), exceeded_before = most_exceeded(optimise, "before");
   if (exceeded) return `No design found keeps ${limit_words(exceeded, optimise)}`;
+  const steep = list(optimise.grinding_limits).map(record).find(({ state }) => state === "exceeded");
+  if (steep) return `No design found keeps the ${steep.name} to ${fmt(steep.limit)} ${pretty_unit(steep.unit)}: ${fmt(steep.value, 3)} ${pretty_unit(steep.unit)}`;
   const from = record(optimise.before).objective, to = record(optimise.after).objective;
   const name = words(optimise.objective_name), unit = pretty_unit(optimise.objective_unit);
   const aggregate = aggregate_words(optimise.over);
@@ -99,7 +103,11 @@ function draw_verdict(results, cases) {
   if (results.fit) fit_verdict(results, verdict);
   if (results.sweep) sweep_verdict(record(results.sweep), verdict);
   if (!results.optimise) return;
-  const optimise = record(results.optimise);
+  const optimise = record(results.optimise), scatter = scatter_of(optimise);
+  const over_draws = scatter ? exceeded_over_draws(scatter) : [];
+  if (over_draws.length > 0) {
+    verdict.append(el("p", { class: "banner bad" }, `Not met over the draws: ${over_draws.map((limit) => drawn_limit_words(scatter, limit)).join("; ")}.`));
+  }
   const broken = constraint_rows(optimise).filter((row) => row.met === false);
   if (broken.length > 0) {
     verdict.append(el("p", { class: "banner bad" }, `Not met: ${broken.map((row) =>

@@ -1,5 +1,48 @@
 // The search over drawn gears: what it gains, how well it predicts, and what each tolerance class costs.
 
+/** The search over drawn gears that gave the design; null where there was none. */
+const scatter_of = (optimise) => (is_number(record(optimise.scatter).value) ? record(optimise.scatter) : null);
+
+/** The statistic of a design ("before", "without scatter", "after") over fresh draws; null without them. */
+const fresh_statistic = (scatter, design) => list(record(scatter.fresh).designs).map(record).find(({ name }) => name === design)?.statistic ?? null;
+
+/** Limits of the statistic that the design exceeds, the most exceeded first. */
+function exceeded_over_draws(scatter) {
+  const excess = ({ value, max }) => (value - max) / Math.abs(max || 1);
+  // Slack for the last digit that the results store, not for the solver.
+  return list(scatter.constraints).map(record).filter((limit) => is_number(limit.value) && is_number(limit.max) && excess(limit) > 1e-5).sort((a, b) => excess(b) - excess(a));
+}
+
+/** "the 95 % quantile of peak-to-peak TE over drawn gears to at most 0.9 µm: 3.15 µm" */
+const drawn_limit_words = (scatter, { name, value, max, unit }) =>
+  `the ${scatter.statistic_in_words} of ${words(name)} over drawn gears to at most ${fmt(max)} ${pretty_unit(unit)}: ${fmt(value, 3)} ${pretty_unit(unit)}`;
+
+/** "95 % quantile of peak contact stress over drawn gears: 4550 → 1590 MPa (−65 %)"; without fresh draws beside the design that was searched without scatter. */
+function scatter_headline(optimise, scatter) {
+  const [exceeded] = exceeded_over_draws(scatter);
+  if (exceeded) return `No design found keeps ${drawn_limit_words(scatter, exceeded)}`;
+  const unit = pretty_unit(scatter.unit), before = fresh_statistic(scatter, "before"), after = fresh_statistic(scatter, "after");
+  const subject = capital(`${scatter.statistic_in_words} of ${words(optimise.objective_name)} over drawn gears`), change = (from, to) => (percent_change(from, to) ? ` (${percent_change(from, to)})` : "");
+  if (is_number(before) && is_number(after)) return `${subject}: ${fmt(before, 3)} → ${fmt(after, 3)} ${unit}${change(before, after)}`;
+  const without = record(scatter.without_scatter).value;
+  return `${subject}: ${fmt(scatter.value, 3)} ${unit}${is_number(without) ? `, ${fmt(without, 3)} ${unit} with the design that knows of no scatter${change(without, scatter.value)}` : ""}`;
+}
+
+/** What was minimised over drawn gears, and its limits: facts for the first screen. */
+function drawn_facts(scatter) {
+  const unit = pretty_unit(scatter.unit), predicted = record(scatter.predicted), before = fresh_statistic(scatter, "before"), after = fresh_statistic(scatter, "after");
+  const between = is_number(predicted.low) && is_number(predicted.high) ? `, between ${fmt(predicted.low, 4)} and ${fmt(predicted.high, 4)}` : "";
+  const exceeded = exceeded_over_draws(scatter);
+  return [
+    is_number(before) ? ["Drawn gears, before", `${fmt(before, 4)} ${unit}`] : null,
+    ["Without scatter in the search", `${fmt(fresh_statistic(scatter, "without scatter") ?? record(scatter.without_scatter).value, 4)} ${unit}`],
+    ["With scatter in the search", `${fmt(after ?? scatter.value, 4)} ${unit}`],
+    is_number(predicted.value) ? ["Predicted", `${fmt(predicted.value, 4)}${between} ${unit}`] : null,
+    ...list(scatter.constraints).map(record).map((limit) => [capital(words(limit.name)), `${fmt(limit.value, 3)} ${pretty_unit(limit.unit)}, at most ${fmt(limit.max)}`,
+      exceeded.includes(limit) ? "bad" : "good"]),
+  ];
+}
+
 function build_tolerances(results, body) {
   const scatter = record(record(results.optimise).scatter), unit = pretty_unit(scatter.unit), fresh = record(scatter.fresh);
   const without = record(scatter.without_scatter), predicted = record(scatter.predicted);
@@ -14,6 +57,16 @@ function build_tolerances(results, body) {
     rows: [["without scatter", without.value, null, "without scatter"], ["with scatter", scatter.value, predicted.value, "after"]].map(([label, value, expected, name]) =>
       [label, value ?? null, expected ?? null, list(fresh.designs).map(record).find((design) => design.name === name)?.statistic ?? null, unit]),
   });
+  const limits = list(scatter.constraints).map(record), exceeded = exceeded_over_draws(scatter).map(({ name }) => name);
+  if (limits.length > 0) {
+    table(body, {
+      title: "Limits over the draws",
+      note: `Each limit holds for the ${scatter.statistic_in_words} over the draws.`,
+      columns: [{ label: "Output" }, { label: capital(`${scatter.statistic_in_words}`) }, { label: "At most" }, { label: "Unit" }, { label: "" }],
+      rows: limits.map(({ name, value, max, unit: of }) => [words(name), value, max, pretty_unit(of),
+        exceeded.includes(name) ? { text: "exceeded", class: "bad" } : { text: "kept", class: "" }]),
+    });
+  }
   table(body, {
     title: "What scatters",
     columns: [{ label: "Quantity" }, { label: "Distribution" }],

@@ -67,6 +67,14 @@ std::string constraint_in_words(const Optimum::Constraint& constraint, const Opt
 
 std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const DesignTask& task) {
   const ModificationConstraint& c = task.modification_constraints[static_cast<std::size_t>(sum.constraint)];
+  if (c.grinding == GrindingLimit::Slope) {
+    const std::string relief =
+        plain_name(std::string(name_of(c.terms[0].member)) + ".modification." + std::string(describe(c.terms[0].parameter).key));
+    return gain_in_words(sum.gain,
+                         fmt::format("The {} is as steep as allowed, {:.4g} um/mm: a further {:.2g} {} over the same length", relief,
+                                     -c.terms[1].factor / units::um, assessment_step(c.unit()), c.unit()),
+                         optimum, task);
+  }
   const std::string move =
       fmt::format("The sum {} is at its {} limit, {:.4g} {}: a further {:.2g} {}", plain_name(c.name), sum.upper ? "upper" : "lower",
                   (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), assessment_step(c.unit()), c.unit());
@@ -128,7 +136,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   const DesignReport& best = design.exact ? *design.exact : design.after;
   const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
-  if (usable && !best.analysis.cycles.empty() && is_infeasible) {
+  if (usable && !best.analysis.cycles.empty() && is_infeasible && problem.has_upper_bounds()) {
     assessment.relaxation = find_relaxation(problem, best.analysis.modification, best.variables);
   }
   if (usable && !best.analysis.cycles.empty() && !is_infeasible) {

@@ -65,7 +65,12 @@ void read_grinding_limits(StudyReading& reading) {
   const std::vector<DesignVariable> varied = changed(optimise);
   if (optimise.largest_amount) {
     for (const DesignVariable& v : varied) {
-      if (describe(v.parameter).kind == ParameterKind::Amount) optimise.modification_constraints.push_back(amount_limit(v, *optimise.largest_amount));
+      if (describe(v.parameter).kind != ParameterKind::Amount) continue;
+      if (v.lower > *optimise.largest_amount || v.upper < -*optimise.largest_amount) {
+        reading.refuse_key("optimise.variables." + v.path,
+                           "a range that reaches optimise.grinding.largest_amount = " + in_words(*optimise.largest_amount / units::um) + " um");
+      }
+      optimise.modification_constraints.push_back(amount_limit(v, *optimise.largest_amount));
     }
   }
   if (!optimise.steepest_relief) return;

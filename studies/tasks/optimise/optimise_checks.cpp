@@ -53,6 +53,18 @@ void check_sums(StudyReading& reading, const char* key, const std::vector<Object
   }
 }
 
+/// A sharp edge carries load, but its pressure has no bound and is left out of the stress.
+void check_edge_outputs(StudyReading& reading) {
+  const PairData& pair = reading.builder.study.pair;
+  for (const auto& [key, term] : all_terms(reading.builder.study.optimise)) {
+    if (term.output != Output::EdgeStress) continue;
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (pair[m].tip_rounding == 0.0)
+        return reading.refuse_key(key, term.name + " needs rounded tip edges: " + name_of(m) + ".edges.tip_rounding above 0");
+    }
+  }
+}
+
 /// What damage, loss and film need must be given.
 void check_life_outputs(StudyReading& reading) {
   const Study& study = reading.builder.study;
@@ -123,6 +135,7 @@ void check_optimise(StudyReading& reading) {
     reading.refuse_key("fidelity.effects", "root stress is asked for: allowed is \"auto\" or a list with \"root_stress\"");
   }
   check_life_outputs(reading);
+  check_edge_outputs(reading);
   for (const Scene& scene : study.scenes) {
     if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;
     return reading.refuse_key("load.torque", "task \"optimise\" needs a torque above 0 in every scene: " + scene.name);

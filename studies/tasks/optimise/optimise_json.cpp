@@ -243,8 +243,10 @@ Json optimise_json(const StudyResults& results) {
   if (results.search_work) json["assessment"] = assessment_json(*results.search_work);
   if (design.exact) {
     json["exact"] = design_report_json(*design.exact, task);
-    json["rounded"] = {
-        {"variables", json["after"]["variables"]}, {"objective", design.after.objective}, {"loss_percent", 100.0 * design.rounding_loss()}};
+    json["rounded"] = {{"variables", json["after"]["variables"]},
+                       {"objective", design.after.objective},
+                       {"loss_percent", 100.0 * design.rounding_loss()},
+                       {"choices_loss_percent", 100.0 * design.choice_loss()}};
   }
   if (!design.stages.empty()) {
     json["stages"] = list(design.stages, [](const LexicographicStage& stage) -> Json {

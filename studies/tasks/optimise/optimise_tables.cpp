@@ -108,7 +108,9 @@ std::string optimise_summary(const StudyResults& results) {
   for (const std::string& sentence : grinding_choices_in_words(design, task)) out += sentence + "\n";
   if (design.exact) {
     const char* what = design.choices.empty() ? "rounding to the steps" : has_steps(task) ? "this and rounding to the steps" : "this";
-    out += fmt::format("{} changes the objective by {:+.1f} %, from {:.5g} to {:.5g}{}\n", what, 100.0 * design.rounding_loss(),
+    const std::string choices =
+        design.choices.empty() || !has_steps(task) ? "" : fmt::format(" ({:+.1f} % without the steps)", 100.0 * design.choice_loss());
+    out += fmt::format("{} changes the objective by {:+.1f} %{}, from {:.5g} to {:.5g}{}\n", what, 100.0 * design.rounding_loss(), choices,
                        design.exact->objective, design.after.objective, behind_number(task.objective_unit()));
   }
   if (results.search_work) {

@@ -43,7 +43,7 @@ std::vector<SchemaKey> scatter_keys() {
       {.path = "optimise.scatter.classes", .kind = NumberList, .range = {.low = 1, .high = 11}, .fallback = "(none)",
        .meaning = "classes for each of which the right design is sought, to show what a class costs",
        .store = [](StudyBuilder& d, Member, const Value& v) { for (const double c : v.numbers) scatter(d).classes.push_back(static_cast<int>(c)); }},
-      {.path = "optimise.scatter.predicted_from", .kind = Integer, .range = {.low = 0, .high = 1'000'000}, .fallback = "500",
+      {.path = "optimise.scatter.predicted_from", .kind = Integer, .range = {.low = 0, .high = 1'000'000}, .fallback = "2000",
        .meaning = "draws that the search has not seen, from which the statistic of its design is predicted with a confidence interval; that over the draws searched is too low, as the least of many",
        .store = [](StudyBuilder& d, Member, const Value& v) { scatter(d).predicted_from = static_cast<int>(v.integer); }},
       {.path = "optimise.scatter.predicted_seed", .kind = Integer, .range = {.low = 0, .high = 2147483647}, .fallback = "3",

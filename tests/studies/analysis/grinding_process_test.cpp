@@ -56,6 +56,9 @@ TEST_CASE("Bad words and numbers of a process are refused", "[studies][grinding]
   CHECK_THAT(problem_of("[pinion.error]\n[wheel.error]\n", {{"pinion.process", "hobbing"}}).allowed, Contains("generating_grinding"));
   CHECK(problem_of("", {{"wheel.twist_compensation", "1.1"}}).key == "wheel.twist_compensation");
   CHECK(problem_of("", {{"wheel.grinding_wheel_diameter", "0"}}).key == "wheel.grinding_wheel_diameter");
+  // A wheel of a radius below the depth of a tooth would have its axis within the gear.
+  CHECK_THAT(problem_of("", {{"pinion.process", "form_grinding"}, {"pinion.grinding_wheel_diameter", "2"}}).allowed,
+             Contains("twice the depth of a tooth"));
 }
 
 TEST_CASE("Without a process a note says how much grinding would twist the lead", "[studies][grinding]") {

@@ -60,6 +60,31 @@ TEST_CASE("Traces of a crowned flank are its parabolas, metal added", "[studies]
   }
 }
 
+TEST_CASE("A drawing has the amounts that were set, and the shape of a relief", "[studies][drawing]") {
+  const Study study = study_texts::read();
+  Modification m;
+  set(m, parameter_of("tip_relief.amount"), 7.25 * units::um);
+  set(m, parameter_of("tip_relief.height"), 2.0);
+  set(m, parameter_of("lead_crowning"), 5.831724 * units::um);
+  const auto line_with = [&](const std::string& name) {
+    for (const std::string& line : make_drawing(make_gear_pair(study.pair), Member::Pinion, m, 6).lines) {
+      if (line.find(name) != std::string::npos) return line;
+    }
+    return std::string("no line with " + name);
+  };
+  CHECK(line_with("tip relief =").ends_with("tip relief = 7.25 µm"));  // a step of 0.25 um
+  CHECK(line_with("tip relief height").ends_with("= 2.00 mm"));
+  CHECK(line_with("lead crowning").ends_with("= 5.8 µm"));  // no multiple of a grinder's step
+  m.tip_relief.shape = ReliefShape::Parabolic;
+  CHECK(line_with("tip relief =").ends_with("tip relief = 7.25 µm, parabolic"));
+}
+
+TEST_CASE("A class for a gear that ISO 1328-1 does not cover is refused where it is given", "[studies][drawing][input]") {
+  const auto problem = study_texts::problem_of("[drawing]\niso_1328_class = 6\n", {{"pinion.face_width", "3.5"}});
+  CHECK(problem.key == "drawing.iso_1328_class");
+  CHECK_THAT(problem.allowed, Catch::Contains("face_width of the pinion is 3.5") && Catch::Contains("4 .. 1200 mm"));
+}
+
 TEST_CASE("The sheet of a flank is well formed: every element that opens closes", "[studies][drawing]") {
   const std::string svg = drawing_svg(crowned(6));
   std::vector<std::string> open;

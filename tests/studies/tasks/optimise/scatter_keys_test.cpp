@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/gear/flank_tolerances.hpp"
+#include "studies/analysis/study_notes.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/scatter_reading.hpp"
@@ -60,6 +61,25 @@ TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nfresh = 10\nfresh_seed = 1\n").allowed, Contains("same draws"));
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\npredicted_seed = 1\n").allowed,
              Contains("another than optimise.scatter.seed"));
+  // One of a hundred draws lies beyond their 99 % quantile, none of 99.
+  const auto notes_of = [](const std::string& draws) {
+    const Study study = read("[optimise.scatter]\niso_1328_class = 6\nstatistic = { quantile = 0.99 }\ndraws = " + draws + "\n");
+    std::string all;
+    for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) all += note;
+    return all;
+  };
+  CHECK_THAT(notes_of("99"), Contains("the 99 % quantile over 99 draws is the largest of them"));
+  CHECK_THAT(notes_of("101"), !Contains("quantile"));
+}
+
+TEST_CASE("A range beyond the largest amount is refused, and a limit on the stress of sharp edges", "[studies][grinding][input]") {
+  CHECK_THAT(problem_of("[optimise.grinding]\nlargest_amount = 5\n[optimise.variables]\n\"pinion.modification.lead_slope\" = [10, 60]\n").allowed,
+             Contains("a range that reaches optimise.grinding.largest_amount = 5 um"));
+  const std::string sharp = "[pinion.edges]\ntip_rounding = 0\n", limit = "[optimise.constraints]\n\"edge_stress\" = { max = 900 }\n";
+  const std::vector<Override> task{
+      {"task", "\"optimise\""}, {"load.torque", "100"}, {"optimise.variables.pinion.modification.lead_crowning", "[0, 10]"}};
+  CHECK_THAT(problem_of(sharp + limit, task).allowed, Contains("needs rounded tip edges: pinion.edges.tip_rounding above 0"));
+  CHECK_NOTHROW(read(limit, task));
 }
 
 TEST_CASE("Limits of the grinding become named constraints", "[studies][grinding]") {
