@@ -94,6 +94,27 @@ TEST_CASE("Without steps nothing is rounded, and a budget of one analysis gives 
   CHECK(problem.unscaled(nearest.x, 1) == Approx(0.0).margin(round_off));     // 0.4 um
 }
 
+TEST_CASE("The least of a function on the steps is that of the whole grid", "[optimize][design][rounding]") {
+  const DesignProblem problem(in_steps(3.0));
+  // A narrow valley at 45 degrees, in which the least of the grid is not at the nearest steps; kept is only what lies on one side of a line.
+  const auto figure = [&](const Eigen::VectorXd& x) {
+    const double a = problem.unscaled(x, 0) / units::um, b = problem.unscaled(x, 1) / units::um;
+    return StepFigure{std::max(0.0, 4.0 - a), 10.0 + std::pow(a + b - 7.7, 2) + 0.05 * std::pow(a - b - 6.2, 2)};
+  };
+  const Eigen::VectorXd found = least_on_steps(problem, problem.scaled_design({6.95 * units::um, 0.75 * units::um}), figure);
+  const DesignVariable &first = problem.task().variables[0], &second = problem.task().variables[1];
+  constexpr double step = 3.0 * units::um;
+  StepFigure least{INFINITY, INFINITY};
+  for (double a = std::ceil(first.lower / step) * step; a <= first.upper; a += step) {
+    for (double b = std::ceil(second.lower / step) * step; b <= second.upper; b += step)
+      least = std::min(least, figure(problem.scaled_design({a, b})));
+  }
+  for (int i = 0; i < 2; ++i) CHECK(is_multiple(problem.unscaled(found, i), step));
+  constexpr double round_off = 1e-9;
+  CHECK(figure(found).violation == Approx(least.violation).margin(round_off));
+  CHECK(figure(found).objective == Approx(least.objective).epsilon(round_off));
+}
+
 TEST_CASE("An amount that the objective does not feel is not ground", "[optimize][design][rounding]") {
   // End relief over a hundredth of a millimetre lies beside all points of contact: whatever its amount, the stress is the same.
   DesignTask task = in_steps(1.0);

@@ -122,6 +122,38 @@ TEST_CASE("The search over draws finds what a grid of designs finds", "[optimize
   }
 }
 
+TEST_CASE("A design chosen over draws lies on the steps, and no neighbour is better by what draws do not tell apart", "[optimize][design][scatter]") {
+  constexpr int draws = 30;
+  constexpr double step = 3.0 * units::um;
+  const std::vector<double> weights(draws, 1.0), start{10.0 * units::um, 0.0};
+  DesignProblem whole(over_draws(Aggregate::Mean, draws));
+  for (const Aggregation& statistic : statistics) {
+    CAPTURE(to_string(statistic));
+    DesignTask task = over_draws(statistic, draws);
+    for (DesignVariable& v : task.variables) v.step = step;
+    const ScatterDesign found = search_over_draws(task, start, slsqp());
+    const auto of = [&](const Eigen::VectorXd& x) {
+      return aggregate(statistic, whole.scene_measures(whole.task().combined_objective(), whole.analyse(x, false)), weights);
+    };
+    constexpr double by_start = 1e-9;  // relative: loads begin from those of another design, see DesignProblem::analyse()
+    CHECK(found.value == Approx(of(found.x)).epsilon(by_start));
+    for (int i = 0; i < whole.variables(); ++i) {
+      const double steps = whole.unscaled(found.x, i) / step;
+      CHECK(steps == Approx(std::round(steps)).margin(1e-9));  // round-off
+    }
+    // Independent route: every neighbour by one step, pairs as well, at all draws. The model tells them apart to first order in what it knows of each draw.
+    constexpr double of_model = 0.01;
+    for (const int a : {-1, 0, 1}) {
+      for (const int b : {-1, 0, 1}) {
+        const Eigen::VectorXd x = whole.scaled_design({whole.unscaled(found.x, 0) + a * step, whole.unscaled(found.x, 1) + b * step});
+        if (x.minCoeff() < 0.0 || x.maxCoeff() > 1.0) continue;
+        CAPTURE(a, b);
+        CHECK(found.value <= (1.0 + of_model) * of(x));
+      }
+    }
+  }
+}
+
 TEST_CASE("Few draws are analysed as the task asks, and the statistic is that of all of them", "[optimize][design][scatter]") {
   DesignTask task = over_draws(statistics[0], 150);
   task.resolution.quadrature = {QuadratureRule::Graded, 8};
