@@ -4,7 +4,7 @@ const FIGURES = ["worst", "te_mean", "te_peak_to_peak", "te_harmonic_1", "te_har
   "peak_contact_stress", "peak_line_load", "load_factor"];
 /** Figures whose differences are counted from the study's outside curve, where it gives one. */
 const OUTSIDE = "from_outside:", OUTSIDE_FIGURES = ["te_mean", "te_peak_to_peak", "te_harmonic_1"], WORST_FROM_OUTSIDE = `${OUTSIDE}worst`;
-const figure_words = (name) => (name === "worst" ? "worst of all quantities" : name === WORST_FROM_OUTSIDE ? "worst of TE mean, peak to peak and first harmonic, from outside"
+const figure_words = (name) => (name === "worst" ? "worst of all quantities" : name === WORST_FROM_OUTSIDE ? "worst of TE, from outside"
   : name.startsWith(OUTSIDE) ? `${words(name.slice(OUTSIDE.length))}, from outside` : words(name));
 /** Magnitude of a level's error [%]. */
 function error_of(level, figure) {
@@ -83,7 +83,7 @@ function build_accuracy(results, body) {
     caption: "Each mark is a fidelity level: all load cases analysed with its models and resolution, compared with the finest level. Most levels differ "
       + "from the finest along one axis; the whole settings are complete choices for practical use. A level with a ring is Pareto-best: no other level "
       + `is both as fast and as accurate. Errors below ${LEAST_DRAWN_ERROR} % are drawn at that value.`
-      + (has_outside ? ` Errors “from outside” are counted from the curve that the study gives (${outside.name}, ${fmt(outside.positions)} positions), at its positions.` : ""),
+      + (has_outside ? ` Errors “from outside” are counted from the curve that the study gives (${outside.name}, ${fmt(outside.positions)} positions), at its positions; the worst is that of mean, peak to peak and first harmonic.` : ""),
   }, (plot) => draw_levels(plot, levels, state.figure));
   const { node } = choice_of_figure(state, redraw, has_outside);
   body.prepend(node);
