@@ -73,6 +73,12 @@ class OptimiseRun {
     const auto load_cases = [&](const std::vector<Scene>& scenes) { return run_.loaded(scenes); };
     ScatterResult scatter = run_scatter(results_.study, *results_.design_task, *results_.design, load_cases, run_.progress());
     results_.steps.push_back({"scatter", "search over drawn gears and assemblies", scatter.design.seconds});
+    const auto add = [this](const char* name, const char* why, double seconds) {
+      if (seconds > 0.0) results_.steps.push_back({name, why, seconds});
+    };
+    add("prediction", "the statistic from draws that the search has not seen", scatter.predicted.seconds);
+    add("fresh_draws", "the designs on further draws", scatter.fresh_seconds);
+    if (!scatter.classes.empty()) add("tolerance_classes", "the right design of each class", scatter.classes_seconds);
     results_.design->after = report_design(problem, problem.analyse_design(scatter.design.modification));
     results_.design->exact.reset();  // of the search over the listed scenes
     results_.scatter = std::make_shared<const ScatterResult>(std::move(scatter));
