@@ -14,11 +14,11 @@ struct Operation {
   double temperature{not_given};  ///< of the oil [deg C]
   /// The same teeth stay in mesh: each load cycle is one of both gears' teeth, and `revolutions` is their number.
   bool same_teeth{false};
-  PerGear<int> meshes_per_revolution{1, 1};  ///< of each gear on the flank that this pair loads, the other ones as much as this [-], >= 1
+  PerGear<int> meshes_per_revolution{1, 1};  ///< how many mates load this flank of each gear, all as much as the pair's [-], >= 1
 };
 
-/// Load cycles of each tooth of a gear. Teeth that stay in mesh have as many as the pinion's; others one in each of the meshes that they pass in a revolution of
-/// their gear [ISO 6336-1:2006: the number of load cycles counts every mesh of a flank].
+/// Load cycles of each tooth of a gear: its contacts under load [ISO 6336-2:2006, N_L of the life factor]. Teeth that stay in mesh have as many as those of the
+/// pinion. Others have one with each mate in a revolution of their gear.
 inline double load_cycles(const GearPair& pair, Member member, const Operation& operation) {
   if (operation.same_teeth) return operation.revolutions;
   const double revolutions = member == Member::Pinion ? operation.revolutions : operation.revolutions / pair.gear_ratio();

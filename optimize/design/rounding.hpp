@@ -29,7 +29,7 @@ struct RoundedDesign {
 /// @param most_analyses  >= 1; the search ends in order with the best so far
 RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses);
 
-/// A design by something that costs less than an analysis.
+/// What a model that costs less than an analysis says of a design.
 struct StepFigure {
   double violation{0.0};  ///< [-]; 0 where the design keeps its constraints
   double objective{0.0};

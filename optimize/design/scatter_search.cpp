@@ -301,8 +301,8 @@ class DrawSearch {
   std::vector<double> measures_, bounds_;
 };
 
-/// On the steps that the model has least. Each design tried adds what it has to the model: contact that reaches an edge there is not foreseen by the gradients of
-/// the optimum. It ends where what the model has least was tried.
+/// The design on the steps that is least by the model. Each design tried is added to the model, because gradients at the optimum do not foresee contact that reaches
+/// an edge beside it. The search ends where the least of the model was tried.
 DrawSearch::Judged round(DrawSearch& search, const DesignProblem& full, ScatterDesign& design) {
   const Eigen::VectorXd exact = design.x;
   std::vector<Eigen::VectorXd> tried;

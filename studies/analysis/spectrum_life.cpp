@@ -258,7 +258,7 @@ std::vector<SpectrumLife> spectra_of(const StudyResults& results, const std::vec
   return spectra;
 }
 
-/// Whether the points of two meshes are the same points of the flanks. Those of one pair are where shafts lie differently under different loads.
+/// Whether the points of two meshes are the same points of the flanks. They are where only the shafts lie differently under each load.
 bool have_same_points(const MeshModel& one, const MeshModel& other) {
   const auto same = [](const ContactPoint& a, const ContactPoint& b) {
     return a.tooth == b.tooth && a.z == b.z && a.pinion_radius == b.pinion_radius;

@@ -92,8 +92,8 @@ function build_accuracy(results, body) {
     note: "Errors are differences from the finest level in per cent, in the worst load case. The TE mean is related to the mean deflection of the mesh; peak "
       + "to peak and harmonics are related to the peak to peak, or to 2 % of that deflection where this is larger. Times are of one thread with influence "
       + "values known; the first run includes the finite elements that the compliance needs."
-      + (has_outside ? ` The last columns are differences from ${outside.name}, which has a mean of ${fmt(outside.te_mean_um, 4)} um and a peak to peak of `
-        + `${fmt(outside.te_peak_to_peak_um, 4)} um; + is more.` : ""),
+      + (has_outside ? ` The last columns are differences from ${outside.name}, which has a mean of ${fmt(outside.te_mean_um, 4)} µm and a peak to peak of `
+        + `${fmt(outside.te_peak_to_peak_um, 4)} µm; + is more.` : ""),
     columns: [{ label: "Level" }, { label: "Axis" }, { label: "Error of" }, { label: "Time", unit: "s", digits: 3 }, { label: "First run", unit: "s", digits: 3 },
       { label: "TE mean", unit: "%", digits: 2 }, { label: "TE p-p", unit: "%", digits: 2 }, { label: "TE harmonic 1", unit: "%", digits: 2 },
       { label: "Stress", unit: "%", digits: 2 }, { label: "Line load", unit: "%", digits: 2 }, { label: "Worst", unit: "%", digits: 2 }, { label: "Best" }, { label: "Settings" },

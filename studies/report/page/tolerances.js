@@ -25,7 +25,7 @@ function scatter_headline(optimise, scatter) {
   const subject = capital(`${scatter.statistic_in_words} of ${words(optimise.objective_name)} over drawn gears`), change = (from, to) => (percent_change(from, to) ? ` (${percent_change(from, to)})` : "");
   if (is_number(before) && is_number(after)) return `${subject}: ${fmt(before, 3)} → ${fmt(after, 3)} ${unit}${change(before, after)}`;
   const without = record(scatter.without_scatter).value;
-  return `${subject}: ${fmt(scatter.value, 3)} ${unit}${is_number(without) ? `, ${fmt(without, 3)} ${unit} with the design that knows of no scatter${change(without, scatter.value)}` : ""}`;
+  return `${subject}: ${fmt(scatter.value, 3)} ${unit}${is_number(without) ? `, ${fmt(without, 3)} ${unit} with the design found without scatter${change(without, scatter.value)}` : ""}`;
 }
 
 /** What was minimised over drawn gears, and its limits: facts for the first screen. */
