@@ -29,6 +29,7 @@ constexpr double settled = 2.5e-3;
 /// Half widths of the box, in ranges of the variables: at first, at least when a level begins, at most, and below which a level ends.
 constexpr double first_radius = 0.2, level_radius = 0.05, largest_radius = 0.5, least_radius = 1e-3;
 constexpr double poor_share = 0.25, good_share = 0.75;  // of the promised gain, see search_over_draws()
+constexpr double safety = 2.0;                          // see judge_all()
 constexpr std::size_t chunk = 64;                       // draws whose cycles are held at the same time
 constexpr std::size_t most_rounded_designs = 24;
 constexpr int all_draws = std::numeric_limits<int>::max();
@@ -66,10 +67,14 @@ class DrawSearch {
     Judged best = judge(problem, x, draws);
     remember(true);
     books_.status = SolverStatus::Converged;
-    books_.message = "no step promises to gain a quarter of a per cent";
-    while (!is_spent()) {
+    while (true) {
       const ModelStep step = least_of_model(model_, best.x, radius_, draws);
-      if (step.gain <= settled) break;
+      if (is_spent() || is_settled(step)) {
+        if (is_screened(best.x)) break;
+        best = judge_all(problem, best.x, draws);
+        remember(true);
+        continue;
+      }
       const double length = (step.x - best.x).lpNorm<Eigen::Infinity>();
       ++books_.steps;
       double gain = -INFINITY;
@@ -85,9 +90,6 @@ class DrawSearch {
       if (options_.progress) options_.progress(books_.steps, best.value);
       if (gain < poor_share * step.gain) radius_ = 0.5 * length;
       if (gain > good_share * step.gain) radius_ = std::min(2.0 * radius_, largest_radius);
-      if (radius_ >= least_radius) continue;
-      books_.message = "no step longer than a thousandth of the ranges gains";
-      break;
     }
     return best;
   }
@@ -104,19 +106,27 @@ class DrawSearch {
     return scenes;
   }
 
-  /// A design by the draws that decide there once all are screened.
-  /// @param beaten  the screening ends where it is known to be no better than this; null: never
+  /// A design by the draws that decide there once the others are screened: all, or where the design need only be compared as far as the model may err. A
+  /// draw is then left out where (1 + safety * shortfall) guess < least measure that a statistic hangs on; the shortfall is the largest by which the model
+  /// guessed too little of a draw screened at this design, relative.
+  /// @param beaten  the screening ends where it is known to be no better than this; null: all are screened
   Judged judge_all(const DesignProblem& problem, const Eigen::VectorXd& x, int draws, const Judged* beaten = nullptr) {
     Judged judged = judge(problem, x, draws);
     screened_.clear();
     screened_x_ = x;
-    const std::vector<int> others = others_worst_first(x, draws);
+    all_screened_ = false;
+    double shortfall = 0.0;
+    const std::vector<Guess> others = others_worst_first(x, draws);
     for (std::size_t from = 0; from < others.size(); from += chunk) {
+      if (beaten != nullptr && from > 0 && (1.0 + safety * shortfall) * others[from].of_deciding < 1.0) return judged;
       const std::size_t to = std::min(from + chunk, others.size());
-      screen_others(x, {others.begin() + static_cast<std::ptrdiff_t>(from), others.begin() + static_cast<std::ptrdiff_t>(to)});
+      std::vector<int> some;
+      for (std::size_t i = from; i < to; ++i) some.push_back(others[i].draw);
+      shortfall = std::max(shortfall, screen_others(x, some, draws));
       if (beaten != nullptr || to == others.size()) judged = judge(problem, x, draws);
-      if (beaten != nullptr && !(beaten->gain_to(judged) > 0.0)) break;
+      if (beaten != nullptr && !(beaten->gain_to(judged) > 0.0)) return judged;
     }
+    all_screened_ = true;
     return judged;
   }
 
@@ -150,25 +160,43 @@ class DrawSearch {
   }
 
  private:
-  /// Scenes of the first draws that the last judge() did not analyse, those first of which the model expects the most.
-  std::vector<int> others_worst_first(const Eigen::VectorXd& x, int draws) const {
-    const std::vector<double> guess = models_.front()->measures(x, draws);
-    std::vector<int> order(guess.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, [&](int a, int b) { return guess[static_cast<std::size_t>(a)] > guess[static_cast<std::size_t>(b)]; });
-    std::erase_if(order, [&](int draw) { return last_.units.contains(scene_unit(screening_, models_.front()->scene(draw))); });
-    return order;
+  /// A draw that was not analysed at a design, and the largest of its guessed measures over the statistics, relative to the least that the statistic hangs on.
+  struct Guess {
+    int draw;
+    double of_deciding;
+  };
+
+  /// The first draws that the last judge() did not analyse, those first of which the model expects the most.
+  std::vector<Guess> others_worst_first(const Eigen::VectorXd& x, int draws) const {
+    std::vector<Guess> others;
+    for (int draw = 0; draw < models_.front()->draws(draws); ++draw) {
+      if (!last_.units.contains(scene_unit(screening_, models_.front()->scene(draw)))) others.push_back({draw, 0.0});
+    }
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+      const std::vector<double> guess = models_[m]->measures(x, draws);
+      for (Guess& other : others) other.of_deciding = std::max(other.of_deciding, guess[static_cast<std::size_t>(other.draw)] / least_deciding_[m]);
+    }
+    std::ranges::stable_sort(others, std::greater{}, &Guess::of_deciding);
+    return others;
   }
 
   /// Screens draws of the objective: contact that reaches an edge there is not foreseen by the gradients of a draw without it.
-  void screen_others(const Eigen::VectorXd& x, const std::vector<int>& others) {
+  /// @returns the largest shortfall of what the model had guessed, relative
+  double screen_others(const Eigen::VectorXd& x, const std::vector<int>& others, int draws) {
     const Analysed analysed = std::exchange(last_, {&screening_, x, {}, {}});
     analyse(screening_, x, *models_.front(), others, false);
-    for (const auto& [key, linear] : last_.linear) {
-      const StatisticModel& model = *models_[key.first];
-      screened_[key] = model.unseen(model.seen(linear, x).value);
+    double shortfall = 0.0;
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+      const StatisticModel& model = *models_[m];
+      const std::vector<double> guess = model.measures(x, draws);
+      for (const auto& [key, linear] : last_.linear) {
+        if (key.first != m) continue;
+        screened_[key] = model.unseen(model.seen(linear, x).value);
+        shortfall = std::max(shortfall, screened_[key] / guess[static_cast<std::size_t>(key.second)] - 1.0);
+      }
     }
     last_ = analysed;
+    return shortfall;
   }
 
   /// A design by the draws that decide there, as far as is known of the others.
@@ -176,6 +204,7 @@ class DrawSearch {
     Judged judged{x, not_given, 0.0};
     if (!last_.is_of(problem, x)) last_ = accepted_.is_of(problem, x) ? accepted_ : Analysed{&problem, x, {}, {}};
     bounds_.clear();
+    least_deciding_.clear();
     for (std::size_t m = 0; m < models_.size(); ++m) {
       StatisticModel& model = *models_[m];
       std::vector<double> guess = model.measures(x, draws);
@@ -188,6 +217,7 @@ class DrawSearch {
           guess, model.first(guess.size()), [&model](const std::vector<double>& measures) { return model.statistic_weights(measures); },
           [&](const std::vector<int>& some) { return analyse(problem, x, model, some, true); });
       const double value = model.statistic(guess);
+      least_deciding_.push_back(least_deciding(guess, model.statistic_weights(guess)));
       if (m == 0) {
         judged.value = value;
         measures_ = std::move(guess);
@@ -227,6 +257,19 @@ class DrawSearch {
     for (const auto& [key, measure] : screened_) {
       if (!last_.linear.contains(key)) models_[key.first]->set(key.second, models_[key.first]->moved(key.second, last_.x, measure));
     }
+  }
+
+  bool is_screened(const Eigen::VectorXd& x) const { return all_screened_ && screened_x_ == x; }
+
+  bool is_settled(const ModelStep& step) {
+    if (step.gain <= settled) {
+      books_.message = "no step promises to gain a quarter of a per cent";
+    } else if (radius_ < least_radius) {
+      books_.message = "no step longer than a thousandth of the ranges gains";
+    } else {
+      return false;
+    }
+    return true;
   }
 
   bool is_spent() {
@@ -298,7 +341,9 @@ class DrawSearch {
   Analysed last_, accepted_;                                ///< of the last judge(), and of the last design accepted
   std::map<std::pair<std::size_t, int>, double> screened_;  ///< measures of the others where a step was to be accepted
   Eigen::VectorXd screened_x_;
+  bool all_screened_{false};  ///< at screened_x_ no draw was left out
   std::vector<double> measures_, bounds_;
+  std::vector<double> least_deciding_;  ///< per statistic the least measure that it hangs on at the last judge()
 };
 
 /// The design on the steps that is least by the model. Each design tried is added to the model, because gradients at the optimum do not foresee contact that reaches

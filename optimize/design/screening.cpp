@@ -10,7 +10,11 @@ namespace flankwright {
 
 namespace {
 
-/// The least measure of a draw that the statistic hangs on.
+/// Positions of a cycle that screens: a peak at fewer lies within a per cent of that of twice as many, and the order of draws is kept.
+constexpr int most_screening_positions = 12;
+
+}  // namespace
+
 double least_deciding(const std::vector<double>& measures, const std::vector<double>& weights) {
   double least = INFINITY;
   for (std::size_t i = 0; i < weights.size(); ++i) {
@@ -18,11 +22,6 @@ double least_deciding(const std::vector<double>& measures, const std::vector<dou
   }
   return least;
 }
-
-/// Positions of a cycle that screens: a peak at fewer lies within a per cent of that of twice as many, and the order of draws is kept.
-constexpr int most_screening_positions = 12;
-
-}  // namespace
 
 DesignTask screening_task(DesignTask task) {
   task = coarser(std::move(task));

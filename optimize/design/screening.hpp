@@ -17,6 +17,9 @@ namespace flankwright {
 std::vector<int> screen(std::vector<double>& guess, std::size_t first, const std::function<std::vector<double>(const std::vector<double>&)>& weights,
                         const std::function<std::vector<double>(const std::vector<int>&)>& analyse);
 
+/// The least measure of a draw that the statistic hangs on.
+double least_deciding(const std::vector<double>& measures, const std::vector<double>& weights);
+
 /// The task by the cheapest resolution that keeps the order of draws; only where can_be_coarser().
 DesignTask screening_task(DesignTask task);
 

@@ -34,6 +34,18 @@ std::string Condition::word(const Component* component, std::string_view attribu
   return own.empty() ? reading_->word(component, attribute) : own;
 }
 
+bool Condition::changes(const Component& component, std::string_view attribute) const {
+  const Component* own = varied(component);
+  return own != nullptr && std::ranges::find(own->attributes, attribute, &Attribute::id) != own->attributes.end();
+}
+
+bool Condition::changes_loads() const {
+  return load_case_ != nullptr && std::ranges::any_of(load_case_->components, [this](const Component& own) {
+           const Component* component = reading_->model().find(own.id);
+           return component != nullptr && component->type == "external_load";
+         });
+}
+
 std::optional<Taken> Condition::torque_of(const Component& load, const Component& shaft) const {
   for (const Component* stated : {varied(load), &load}) {
     const auto torque = reading_->number(stated, "torque_around_u_axis", Dimension::Torque);

@@ -27,6 +27,11 @@ class Condition {
   /// As Reading::word(), of the load case alone; empty for the model alone.
   std::string word_of_case(const Component* component, std::string_view attribute) const;
 
+  /// Whether the load case has an attribute of a component.
+  bool changes(const Component& component, std::string_view attribute) const;
+  /// Whether the load case has something of an external load.
+  bool changes_loads() const;
+
   /// Torque of an external load on its shaft about the shaft's u axis [N mm], with its sign: torque_around_u_axis, else power over rotational_speed of
   /// the shaft. What the load case says of the load replaces what the model says.
   /// @return  nullopt where it is 0 or not in the file

@@ -249,17 +249,6 @@ UnitImport import_unit(const std::string& text, const std::string& name, const R
   for (std::size_t i = 0; i < stages.size(); ++i) {
     const int number = static_cast<int>(i) + 1;
     const Component& stage = reading.in_role(*stages[i], "stage");
-    const Component* shared = nullptr;
-    for (const char* role : {"gear_1", "gear_2"}) {
-      const auto id = stages[i]->role(role);
-      const Component* gear = id ? model.find(*id) : nullptr;
-      if (gear != nullptr && meshes_of(reading, *gear) > 1) shared = gear;
-    }
-    if (shared != nullptr) {
-      leave_out(stage, Reading::name_of(*shared) + " with several meshes, as in a planetary stage",
-                fmt::format("a gear with one mesh; by itself it is imported by --stage {} ({})", number, stage_in_words(reading, *stages[i])));
-      continue;
-    }
     RexsImportOptions of_stage = options;
     of_stage.stage = number;
     of_stage.grid_stem = stem_of_stage(options.grid_stem, number);

@@ -1,9 +1,12 @@
 #include "studies/exchange/rexs/rexs_load.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "core/base/units.hpp"
 #include "studies/exchange/rexs/rexs_torque_flow.hpp"
 
 namespace flankwright::studies::rexs {
@@ -18,27 +21,53 @@ std::optional<WorkingFlank> flank_of_word(const std::string& word, const StagePa
   return (word == "right") == parts[Member::Pinion].datum_at_low_z ? WorkingFlank::Right : WorkingFlank::Left;
 }
 
+/// A size of the torque on the pinion that the file states.
+struct Statement {
+  double torque{0.0};  ///< [N mm]
+  std::string source{};
+  bool of_case{false};  ///< by the load case, not by the model
+};
+
+std::string in_words(const Condition& condition) { return condition.name().empty() ? "" : condition.name() + ": "; }
+
+/// The first by the load case, else the first by the model, that is not 0. Others of the same origin that contradict it are warned of.
+Statement first_of(const Condition& condition, std::vector<Statement> statements) {
+  std::erase_if(statements, [](const Statement& statement) { return statement.torque == 0.0; });
+  if (statements.empty()) return {};
+  std::ranges::stable_partition(statements, &Statement::of_case);
+  const Statement& first = statements.front();
+  for (const Statement& other : statements) {
+    if (other.of_case != first.of_case || std::abs(other.torque - first.torque) <= largest_loss * std::max(other.torque, first.torque)) continue;
+    condition.reading().warn(fmt::format("{}the torque on the pinion is {:.6g} N m by {}, but {:.6g} N m by {}: the first is taken",
+                                         in_words(condition), first.torque / units::newton_metre, first.source, other.torque / units::newton_metre,
+                                         other.source));
+  }
+  return first;
+}
+
 /// Size, signs and share of time. The flank only where the load case itself names it.
 ImportedTorque torque_in(const Condition& condition, const StageParts& parts) {
   ImportedTorque found{.name = condition.name(), .load_case = condition.load_case()};
-  const auto take = [&](double torque, const std::string& source, double share) {
-    if (found.torque > 0.0 || torque == 0.0) return;
-    found.torque = std::abs(torque) * share;
-    found.source = source;
-  };
+  std::vector<Statement> statements;
   // Of the stage's own data first: a gear of several stages says there what it takes in this one.
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     const auto torque = condition.number(parts[m].data, "torque", Dimension::Torque);
     if (!torque) continue;
     found.signs.data[m] = sign_of(torque->value);
     const double share = m == Member::Pinion ? 1.0 : static_cast<double>(parts.teeth[0]) / parts.teeth[1];
-    take(torque->value, torque->source + (m == Member::Pinion ? "" : ", through the teeth"), share);
+    statements.push_back({std::abs(torque->value) * share, torque->source + (m == Member::Pinion ? "" : ", through the teeth"),
+                          condition.changes(*parts[m].data, "torque")});
   }
   const Component& pinion = *parts[Member::Pinion].gear;
-  if (const auto torque = TorqueFlow(condition, u_axis(condition.reading(), pinion)).on(pinion, *parts.stage)) {
+  const TorqueFlow flow(condition, u_axis(condition.reading(), pinion));
+  if (const auto torque = flow.on(pinion, *parts.stage)) {
     found.signs.loads = sign_of(torque->torque);
-    if (torque->has_size) take(torque->torque, torque->source, 1.0);
+    if (torque->has_size) statements.push_back({std::abs(torque->torque), torque->source, condition.changes_loads()});
   }
+  const Statement taken = first_of(condition, std::move(statements));
+  found.torque = taken.torque;
+  found.source = taken.source;
+  for (const std::string& contradiction : flow.contradictions()) condition.reading().warn(in_words(condition) + contradiction);
   const Component* data = parts[Member::Pinion].data;
   if (const auto flank = flank_of_word(condition.word_of_case(data, "loaded_tooth_flank"), parts)) {
     found.flank = *flank;

@@ -1,8 +1,11 @@
 #include "studies/exchange/rexs/rexs_torque_flow.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/units.hpp"
 #include "studies/exchange/rexs/rexs_stage.hpp"
 
 namespace flankwright::studies::rexs {
@@ -140,6 +143,30 @@ std::optional<GearTorque> TorqueFlow::on(const Component& gear, const Component&
     }
   }
   return std::nullopt;
+}
+
+std::vector<std::string> TorqueFlow::contradictions() const {
+  std::vector<std::string> words;
+  for (const Shaft& shaft : shafts_) {
+    const bool is_known =
+        !shaft.has_open_load && std::ranges::none_of(shaft.places, [&](const Place& place) { return is_open(place) || !torque_at(place).has_size; });
+    const bool leaves_out_load = shaft.loads.empty() && shaft.places.size() < 2;  // as of a machine that is driven
+    if (!is_known || leaves_out_load) continue;
+    double of_loads = 0.0, of_gears = 0.0, largest = 0.0;
+    for (const Taken& load : shaft.loads) {
+      of_loads += load.value;
+      largest = std::max(largest, std::abs(load.value));
+    }
+    for (const Place& place : shaft.places) {
+      of_gears += torque_at(place).torque;
+      largest = std::max(largest, std::abs(torque_at(place).torque));
+    }
+    if (std::abs(of_loads - of_gears) <= largest_loss * largest) continue;
+    words.push_back(fmt::format(
+        "external loads contradict each other: {} has {:.6g} N m from its loads, and its gears take {:.6g} N m by the loads of other shafts",
+        Reading::name_of(*shaft.component), of_loads / units::newton_metre, of_gears / units::newton_metre));
+  }
+  return words;
 }
 
 }  // namespace flankwright::studies::rexs

@@ -16,6 +16,9 @@ struct GearTorque {
   std::string source{};  ///< what it came from
 };
 
+/// Two statements of one torque agree where they differ by no more than this part of the larger: what the meshes and bearings between them may lose.
+inline constexpr double largest_loss = 0.05;
+
 /// Torques of all meshes of a file in one condition, from its external loads.
 ///
 ///     sum of the loads on a shaft = sum of the torques on its gears, in all of their meshes
@@ -31,6 +34,9 @@ class TorqueFlow {
 
   /// On a gear of a stage; nullopt where the loads do not say.
   std::optional<GearTorque> on(const Component& gear, const Component& stage) const;
+
+  /// Shafts on which the loads contradict each other, in words: all torques are known, and they leave more than largest_loss of the largest.
+  std::vector<std::string> contradictions() const;
 
  private:
   /// A mesh with the torque on its first gear.

@@ -44,14 +44,14 @@ struct PairFile {
 /// Two stages on three shafts, 19 : 71 and 23 : 67, that a load drives.
 struct TwoStages {
   GearTrain train;
-  int input, load;
+  int input, load, output_load;
 
   explicit TwoStages(const Attributes& attributes) {
     const double first = reference_distance(19, 71, 3, 18), second = reference_distance(23, 67, 5, 14);
     input = train.shaft(0, 0);
     const int middle = train.shaft(first, 0), output = train.shaft(first, second);
     load = train.load(input, 0, attributes);
-    train.load(output, 300, {word("transmits_torque", "true")});
+    output_load = train.load(output, 300, {word("transmits_torque", "true")});
     train.stage(train.gear(input, 100, 19, 3, 18.0), train.gear(middle, 100, 71, 3, -18.0));
     train.stage(train.gear(middle, 200, 23, 5, -14.0), train.gear(output, 200, 67, 5, 14.0));
   }
@@ -133,6 +133,54 @@ TEST_CASE("A reversed case of a unit is left out and named", "[studies][rexs][im
     REQUIRE(imported.warnings.size() == 1);
     CHECK_THAT(imported.warnings.front(), Contains("load case 2: left out") && Contains("a gear unit"));
   }
+}
+
+TEST_CASE("Loads that contradict each other are warned of, losses are not", "[studies][rexs][import][errors]") {
+  // 19 : 71 and 23 : 67 turn 100 N m into 1088.6 N m, all about x.
+  const double output_torque = 100.0 * 71 / 19 * 67 / 23;
+  const auto warnings = [&](double stated) {
+    TwoStages file({torque(100)});
+    file.train.set(file.output_load, torque(-stated));
+    const rexs::ImportedStudy imported = stage_of_train(file.train, 1);
+    CHECK(parse_study(imported.text, "stage.toml").torques.front() == Approx(100e3).epsilon(round_off_of_torques));
+    return imported.warnings;
+  };
+  CHECK(warnings(output_torque).empty());
+  CHECK(warnings(0.97 * output_torque).empty());  // two meshes lose 3 %
+  for (const double wrong : {0.5, 1.2, -1.0}) {
+    CAPTURE(wrong);
+    const std::vector<std::string> said = warnings(wrong * output_torque);
+    REQUIRE_FALSE(said.empty());
+    CHECK_THAT(said.front(), Contains("external loads contradict each other") && Contains("N m"));
+  }
+}
+
+TEST_CASE("A torque in the stage's data is held against the external loads", "[studies][rexs][import][errors]") {
+  PairFile file;
+  file.train.set(file.data, number("torque", 300, "N m"));
+  const rexs::ImportedStudy imported = stage_of_train(file.train, 1);
+  CHECK(parse_study(imported.text, "stage.toml").torques.front() == Approx(300e3).epsilon(round_off_of_torques));
+  REQUIRE(imported.warnings.size() == 1);
+  CHECK_THAT(imported.warnings.front(), Contains("300 N m") && Contains("400 N m") && Contains("the first is taken"));
+  file.train.set(file.data, number("torque", 392, "N m"));  // 2 % less, as losses are
+  CHECK(stage_of_train(file.train, 1).warnings.empty());
+}
+
+TEST_CASE("What a load case says of a torque comes before what the model says", "[studies][rexs][import]") {
+  PairFile file;
+  file.train.set(file.data, number("torque", 400, "N m"));  // as of a calculation of the nominal load
+  const auto torques = [&] {
+    const rexs::ImportedStudy imported = stage_of_train(file.train, 1);
+    CHECK(imported.warnings.empty());
+    const Study study = parse_study(imported.text, "stage.toml");
+    std::vector<double> newton_metres;
+    for (const Scene& scene : study.scenes) newton_metres.push_back(std::round(scene.torques.front() / units::newton_metre));
+    return newton_metres;
+  };
+  for (const double newton_metre : {250.0, 500.0}) file.train.load_case({{file.load, {torque(newton_metre)}}});
+  CHECK(torques() == std::vector{250.0, 500.0});
+  file.train.load_case({{file.data, {number("torque", 350, "N m")}}});
+  CHECK(torques() == std::vector{250.0, 500.0, 350.0});
 }
 
 TEST_CASE("A load case without torque is left out and named", "[studies][rexs][import]") {
