@@ -12,6 +12,7 @@
 #include "core/flank/measured_grid.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "studies/exchange/rexs/flank_parts.hpp"
+#include "studies/exchange/rexs/relief_form.hpp"
 
 namespace flankwright::studies::rexs {
 
@@ -100,12 +101,6 @@ class ModificationReading {
     return std::hypot(frame_.base_radius, gear_.roll_length_at(std::max(frame_.active_root_radius, frame_.base_radius)) + roll);
   }
 
-  /// Of a relief, from its start (0) to where its depth is reached (1).
-  static double form(ReliefShape shape, double share) {
-    const double within = std::max(0.0, share);
-    return shape == ReliefShape::Linear ? within : within * within;
-  }
-
   /// Linear or parabolic; what is neither, but near the parabola, is taken for it. Nullopt for the rest, which is left out.
   std::optional<ReliefShape> shape_of(const Component& c) {
     const std::string shape = reading_.word(&c, "shape_of_relief");
@@ -116,9 +111,22 @@ class ModificationReading {
     return std::nullopt;
   }
 
-  void warn_of_transition(const Component& c) {
-    if (reading_.word(&c, "specify_tangential_transition") == "true")
-      note(c, "its tangential transition is not taken, the relief starts with a kink");
+  /// The form of a relief with its tangential transition, where that can be taken.
+  /// @param start, end  of the transition, as shares of the relief's extent
+  ReliefForm form_of(const Component& c, ReliefShape shape, std::optional<double> start, std::optional<double> end) {
+    const ReliefForm plain{shape};
+    if (reading_.word(&c, "specify_tangential_transition") != "true") return plain;
+    const std::string kink = "its tangential transition is not taken, the relief starts with a kink: ";
+    if (!start || !end) {
+      note(c, kink + "the file does not say where it starts and ends");
+    } else if (shape != ReliefShape::Linear) {
+      note(c, kink + "the format has it for linear reliefs");
+    } else if (const ReliefForm blended{shape, *start, *end}; !blended.can_blend()) {
+      note(c, kink + "the relief does not start in the middle third of it");
+    } else {
+      return blended;
+    }
+    return plain;
   }
 
   void read_relief(const Component& c, bool at_tip) {
@@ -131,7 +139,6 @@ class ModificationReading {
     const auto shape = shape_of(c);
     if (!shape) return;
     if (length(c, "position_of_profile_modification")) note(c, "its position along the face is not taken, the relief is the same along all of it");
-    warn_of_transition(c);
     const double end = at_tip ? frame_.tip_radius : frame_.active_root_radius;
     const double start = diameter ? 0.5 * *diameter : at_tip ? radius_below_tip(*roll) : radius_above_root(*roll);
     const double height = at_tip ? end - start : start - end;
@@ -141,18 +148,26 @@ class ModificationReading {
     if (!diameter)
       note(c, at_tip ? "its datum length is taken as roll length from the tip"
                      : "its datum length is taken as roll length from the start of active profile");
+    const double sense = at_tip ? 1.0 : -1.0;
+    const auto share_of = [&](const std::string& place) -> std::optional<double> {
+      auto radius = length(c, name + "_diameter_where_tangential_transition_" + place + "s");
+      if (radius) *radius *= 0.5;
+      const auto roll_length = length(c, name + "_length_of_tangential_transition_" + place);
+      if (!radius && roll_length) radius = at_tip ? radius_below_tip(*roll_length) : radius_above_root(*roll_length);
+      return radius ? std::optional(sense * (*radius - start) / height) : std::nullopt;
+    };
+    const ReliefForm form = form_of(c, *shape, share_of("start"), share_of("end"));
     double amount = *depth;
     if (reference && !same_length(0.5 * *reference, end)) {
       const double share = height / std::abs(0.5 * *reference - start);
       if (!std::isfinite(share)) return leave_out(c, "it is evaluated where it starts");
-      amount *= form(*shape, share);
+      amount *= ReliefForm{*shape}.at(share);
       note(c, fmt::format("its depth at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*reference),
                           difference_text(2.0 * end)));
     }
     ProfileRelief& relief = at_tip ? result_.modification.tip_relief : result_.modification.root_relief;
-    if (relief.amount != 0.0 && (!same_length(relief.height, height) || relief.shape != *shape)) {
-      const double sense = at_tip ? 1.0 : -1.0;
-      return add_part(c, [=](double r, double) { return amount * form(*shape, sense * (r - start) / height); }, {.along_face = false});
+    if (form.is_blended() || (relief.amount != 0.0 && (!same_length(relief.height, height) || relief.shape != *shape))) {
+      return add_part(c, [=](double r, double) { return amount * form.at(sense * (r - start) / height); }, {.along_face = false});
     }
     relief = {relief.amount + amount, height, *shape};
     remark(name, c);
@@ -268,10 +283,10 @@ class ModificationReading {
 
   struct EndOfFace {
     double amount{0.0}, length{0.0};
-    ReliefShape shape{ReliefShape::Linear};
+    ReliefForm form{};
     const Component* component{nullptr};
     bool operator==(const EndOfFace& other) const {
-      return same_length(amount, other.amount) && same_length(length, other.length) && shape == other.shape;
+      return same_length(amount, other.amount) && same_length(length, other.length) && form == other.form;
     }
   };
 
@@ -281,29 +296,32 @@ class ModificationReading {
     if (!depth || !extent || !(*extent > 0.0)) return leave_out(c, "it has no depth or no length");
     const auto shape = shape_of(c);
     if (!shape) return;
-    warn_of_transition(c);
+    const auto share_of = [&](const std::string& place) -> std::optional<double> {
+      const auto from_end = length(c, "end_relief_" + side + "_length_of_tangential_transition_" + place);
+      return from_end ? std::optional(1.0 - *from_end / *extent) : std::nullopt;
+    };
+    const ReliefForm form = form_of(c, *shape, share_of("start"), share_of("end"));
     double amount = *depth;
     if (reference && !same_length(std::abs(*reference), 0.5 * frame_.face_width)) {
       const double within = *extent - (0.5 * frame_.face_width - std::abs(*reference));
       if (!(within > 0.0)) return leave_out(c, "it is evaluated before it starts");
-      amount /= form(*shape, within / *extent);
+      amount /= form.at(within / *extent);
       note(c, "its depth is carried on to the end of the face, where a study states it");
     }
-    const EndOfFace read{amount, *extent, *shape, &c};
+    const EndOfFace read{amount, *extent, form, &c};
     if (end.component != nullptr) return add_end_relief(read, &end == &datum_end_);
     end = read;
   }
 
   void add_end_relief(const EndOfFace& end, bool at_datum) {
     const double sense = at_datum == parts_.datum_at_low_z ? -1.0 : 1.0, start = 0.5 * frame_.face_width - end.length;
-    add_part(*end.component, [=](double, double z) { return end.amount * form(end.shape, (sense * z - start) / end.length); },
-             {.along_profile = false});
+    add_part(*end.component, [=](double, double z) { return end.amount * end.form.at((sense * z - start) / end.length); }, {.along_profile = false});
   }
 
   /// A study has the same linear relief at both ends; all else is a part of the grid.
   void join_end_reliefs() {
     const EndOfFace &one = datum_end_, &two = other_end_;
-    if (one.component != nullptr && two.component != nullptr && one == two && one.shape == ReliefShape::Linear) {
+    if (one.component != nullptr && two.component != nullptr && one == two && one.form == ReliefForm{}) {
       result_.modification.end_relief = {one.amount, one.length};
       remark("end_relief", *one.component);
       remark("end_relief", *two.component);

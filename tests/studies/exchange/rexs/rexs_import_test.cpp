@@ -304,6 +304,43 @@ TEST_CASE("Modifications without a key become a grid, and its departure is repor
                         [&](double, double z) { return squared(0.01, (20.0 - z) / 40.0); }) < smooth);
 }
 
+TEST_CASE("A tangential transition joins the flank and a linear relief without a kink", "[studies][rexs][import]") {
+  const std::string transition = attribute("specify_tangential_transition", "true", "none");
+  constexpr double beside_a_bend = 3e-5;  // [mm] discretisation: curvature jumps between lines of the grid
+  // Tip relief from radius 42 mm (d_a = 88 mm); in the middle of its transition, so that this is a parabola of half the slope.
+  const auto tip = [&](const std::string& start, const std::string& end) {
+    return import_text(modified({"type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "84") +
+                                 transition + attribute("tip_relief_diameter_where_tangential_transition_starts", start) +
+                                 attribute("tip_relief_diameter_where_tangential_transition_ends", end)}));
+  };
+  CHECK(worst_departure(tip("83", "85"), [](double r, double) {
+          return r < 41.5 ? 0.0 : r < 42.5 ? 0.005 * 0.5 * (r - 41.5) * (r - 41.5) : 0.005 * (r - 42.0);
+        }) < beside_a_bend);
+  // Beside the middle: no kink at either end, and nothing below the flank.
+  const auto field_departure = worst_departure(tip("83.2", "85"), [](double r, double) {
+    const double t = std::clamp((r - 41.6) / 0.9, 0.0, 1.0), line = 0.005 * (r - 42.0);
+    return r > 42.5 ? line : 0.005 * (0.5 * t * t * (3.0 - 2.0 * t) + 0.9 * t * t * (t - 1.0));
+  });
+  CHECK(field_departure < beside_a_bend);
+  // End relief over 8 mm; its transition from 10 to 6 mm from the end.
+  const auto end = import_text(modified({"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") +
+                                         attribute("end_relief_length_datum_face", "8") + transition +
+                                         attribute("end_relief_datum_face_length_of_tangential_transition_start", "10") +
+                                         attribute("end_relief_datum_face_length_of_tangential_transition_end", "6")}));
+  CHECK(worst_departure(end, [](double, double z) {
+          const double depth = -z - 12.0;  // past the start of the relief
+          return depth < -2.0 ? 0.0 : depth < 2.0 ? 0.01 / 8.0 * (depth + 2.0) * (depth + 2.0) / 8.0 : 0.01 / 8.0 * depth;
+        }) < beside_a_bend);
+  // What cannot be taken leaves the relief as a key of the study, and is named.
+  for (const auto& [start, stop] : {std::pair("83.9", "85"), {"84.5", "85"}, {"85", "83"}}) {
+    CAPTURE(start, stop);
+    const rexs::ImportedStudy kinked = tip(start, stop);
+    CHECK_THAT(kinked.text, Contains("tip_relief = { amount = 10, height = 2"));
+    REQUIRE(kinked.warnings.size() == 1);
+    CHECK_THAT(kinked.warnings.front(), Contains("tangential transition is not taken") && Contains("middle third"));
+  }
+}
+
 TEST_CASE("A stage that no study can describe is refused with component and attribute", "[studies][rexs][import][errors]") {
   const std::string good = small_file();
   REQUIRE(refusal(good).empty());
