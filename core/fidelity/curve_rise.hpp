@@ -35,13 +35,26 @@ inline CurveRise vertex(const CurveSample& a, const CurveSample& b, const CurveS
   return {b.y + 0.5 * slope * step, b.x + step};
 }
 
+/// By how much the curve may rise beyond a sample that lies above what both sides promise; nothing where it does not.
+/// @param after_1  towards which it rises
+inline double rise_of_lone(const CurveSample& before_3, const CurveSample& before_2, const CurveSample& before_1, const CurveSample& sample,
+                           const CurveSample& after_1, const CurveSample& after_2, const CurveSample& after_3) {
+  const double step = std::abs(sample.x - before_1.x), next = std::abs(after_1.x - sample.x);
+  const double promised =
+      std::max(before_1.y + slope_into(before_3, before_2, before_1) * step, after_1.y + slope_into(after_3, after_2, after_1) * next);
+  return sample.y > promised ? 0.5 * next * std::max(0.0, (sample.y - before_1.y) / step) : 0.0;
+}
+
 }  // namespace detail
 
 /// How high a curve may rise between two neighbouring samples. It consists of smooth pieces with kinks: both sides are continued straight until they
 /// meet, by the last secant or by the slope extrapolated from the last two, whichever is steeper, because curves grow steeper towards a kink. On a smooth
 /// top the parabola through three neighbours is taken.
+///
+/// A sample that lies above what both of its sides promise is the only one of its piece, such as that of a tip edge which carries over a thirtieth of a pitch.
+/// How the piece goes on is then not known: it may rise as far as half way to the next sample, by the secant from the other side.
 /// @param curve  by rising x
-/// @param left   the interval's first sample; two more lie beyond either end
+/// @param left   the interval's first sample; three more lie beyond either end
 inline CurveRise rise_between(std::span<const CurveSample> curve, std::size_t left) {
   const CurveSample a = curve[left], b = curve[left + 1];
   const double length = b.x - a.x;
@@ -59,6 +72,11 @@ inline CurveRise rise_between(std::span<const CurveSample> curve, std::size_t le
   CurveRise rise{height, a.x + t * length};
   for (const CurveRise& top : {detail::vertex(curve[left - 1], a, b), detail::vertex(a, b, curve[left + 2])}) {
     if (top.height > rise.height && top.x > a.x && top.x < b.x) rise = top;
+  }
+  const double past_a = detail::rise_of_lone(curve[left - 3], curve[left - 2], curve[left - 1], a, b, curve[left + 2], curve[left + 3]),
+               past_b = detail::rise_of_lone(curve[left + 4], curve[left + 3], curve[left + 2], b, a, curve[left - 1], curve[left - 2]);
+  for (const double lone : {a.y + past_a, b.y + past_b}) {
+    if (lone > rise.height) rise = {lone, a.x + 0.5 * length};
   }
   return rise;
 }

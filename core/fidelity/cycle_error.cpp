@@ -77,15 +77,26 @@ double approach_of(const LoadedPosition& position) { return position.load.transm
 double te_of(const LoadedPosition& position) { return position.load.transmission_error; }
 double stress_of(const LoadedPosition& position) { return position.contact_stress.maxCoeff(); }
 double load_of(const LoadedPosition& position) { return position.peak_load.maxCoeff(); }
+double edge_stress_of(const LoadedPosition& position) { return position.edge_stress.size() > 0 ? position.edge_stress.maxCoeff() : not_given; }
+double edge_share_of(const LoadedPosition& position) { return position.tip_edge_share; }
 double root_of(const LoadedPosition& position) { return position.root_stress.size() > 0 ? position.root_stress.maxCoeff() : not_given; }
+
+/// Of the mean deflection, as far as of the stiffness over it.
+double stiffness_error(double approach_error, const LoadedCycle& cycle, const CycleSummary& summary) {
+  return approach_error / mean_of(curve(cycle, approach_of)) * summary.mean_stiffness;
+}
 
 CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, const CycleSummary& summary) {
   CycleErrors errors;
   const std::size_t stride = fine.positions.size() / coarse.positions.size();
   const auto some = [&](const auto& reading) { return every(curve(fine, reading), stride); };
-  std::vector<double> d = some(te_of);
-  const std::vector<double> te = curve(coarse, te_of);
-  for (std::size_t i = 0; i < d.size(); ++i) d[i] -= te[i];
+  const auto differences = [&](const auto& reading) {
+    std::vector<double> d = some(reading);
+    const std::vector<double> of_coarse = curve(coarse, reading);
+    for (std::size_t i = 0; i < d.size(); ++i) d[i] -= of_coarse[i];
+    return d;
+  };
+  const std::vector<double> d = differences(te_of);
   const auto [low, high] = std::ranges::minmax(d);
   const double scatter = of_shape * rms_about_mean(d);
   errors.te_mean = mean_error_by_points(d);
@@ -99,7 +110,11 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   if (!std::isnan(summary.peak_root_stress) && coarse.positions.front().root_stress.size() > 0) {
     errors.peak_root_stress = of_root_stress * peak_difference(some(root_of), curve(coarse, root_of));
   }
-  errors.mean_stiffness = errors.te_mean / mean_of(curve(fine, approach_of)) * summary.mean_stiffness;
+  if (!std::isnan(summary.edge_stress)) {
+    errors.edge_stress = of_peaks * peak_difference(some(edge_stress_of), curve(coarse, edge_stress_of));
+    errors.tip_edge_share = of_peaks * peak_difference(some(edge_share_of), curve(coarse, edge_share_of));
+  }
+  errors.mean_stiffness = stiffness_error(mean_error_by_points(differences(approach_of)), fine, summary);
   return errors;
 }
 
@@ -126,7 +141,12 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
   errors.peak_line_load = unseen(Figure::PeakLineLoad, curve(fine, load_of));
   errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;
   if (!std::isnan(summary.peak_root_stress)) errors.peak_root_stress = unseen_rise(curve(fine, root_of));
-  errors.mean_stiffness = errors.te_mean / mean_of(curve(fine, approach_of)) * summary.mean_stiffness;
+  if (!std::isnan(summary.edge_stress)) {
+    const std::vector<double> share = curve(fine, edge_share_of);
+    errors.edge_stress = extremes != nullptr ? extremes->unseen_edge_stress : unseen_rise(curve(fine, edge_stress_of));
+    errors.tip_edge_share = std::max(0.0, unseen_rise(share) - (summary.tip_edge_share - *std::ranges::max_element(share)));
+  }
+  errors.mean_stiffness = stiffness_error(mean_error_by_positions(curve(fine, approach_of)), fine, summary);
   return errors;
 }
 
@@ -140,6 +160,8 @@ CycleErrors CycleErrorParts::sum() const {
   both.peak_line_load = points.peak_line_load + positions.peak_line_load;
   both.peak_contact_stress = points.peak_contact_stress + positions.peak_contact_stress;
   both.peak_root_stress = points.peak_root_stress + positions.peak_root_stress;
+  both.edge_stress = points.edge_stress + positions.edge_stress;
+  both.tip_edge_share = points.tip_edge_share + positions.tip_edge_share;
   both.load_factor = points.load_factor + positions.load_factor;
   both.mean_stiffness = points.mean_stiffness + positions.mean_stiffness;
   return both;
@@ -184,6 +206,8 @@ CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCyc
   errors.peak_line_load = narrower(&CycleErrors::peak_line_load, &CycleSummary::peak_line_load);
   errors.peak_contact_stress = narrower(&CycleErrors::peak_contact_stress, &CycleSummary::peak_contact_stress);
   errors.peak_root_stress = narrower(&CycleErrors::peak_root_stress, &CycleSummary::peak_root_stress);
+  errors.edge_stress = narrower(&CycleErrors::edge_stress, &CycleSummary::edge_stress);
+  errors.tip_edge_share = narrower(&CycleErrors::tip_edge_share, &CycleSummary::tip_edge_share);
   errors.load_factor = narrower(&CycleErrors::load_factor, &CycleSummary::load_factor);
   errors.mean_stiffness = narrower(&CycleErrors::mean_stiffness, &CycleSummary::mean_stiffness);
   return errors;

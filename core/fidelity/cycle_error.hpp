@@ -12,6 +12,8 @@ struct CycleErrors {
   std::vector<double> te_harmonics;                                    ///< orders 1 .. 10 [mm]; empty: not estimated
   double peak_line_load{not_given};                                    ///< [N/mm]
   double peak_contact_stress{not_given}, peak_root_stress{not_given};  ///< [MPa]
+  double edge_stress{not_given};                                       ///< [MPa]
+  double tip_edge_share{not_given};                                    ///< [-]
   double load_factor{not_given};                                       ///< [-]
   double mean_stiffness{not_given};                                    ///< [N/(mm um)]
 };
@@ -34,7 +36,7 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 ///   comes from kinks of the load between points. As a kink wanders from point to point its error runs from none to J h^2/8 (J the change of
 ///   slope, h the distance of the points), so that d covers four times the range by which the fine curve is off. A third is taken, because some of the
 ///   error converges more slowly: the peak to peak is off by (max d - min d)/3. Harmonic k is off by (|DFT_k d| + rms(d - mean d))/3, because a single
-///   order may be small by chance. Peaks of root stress are off by half of what changes. Peaks of stress and load, which lie at the ends of lines more
+///   order may be small by chance. Peaks of root stress are off by half of what changes. The mean stiffness is off as the mean deflection is. Peaks of stress and load, which lie at the ends of lines more
 ///   often than not,
 ///   converge with order one at least: they are off by the largest difference of both peaks around any position that comes within a tenth
 ///   of the peak, a sixteenth of the cycle to either side. Position by position they would differ by more: kinks of a linear relief wander between points.

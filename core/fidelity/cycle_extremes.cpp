@@ -7,17 +7,19 @@
 #include <set>
 
 #include "core/fidelity/curve_rise.hpp"
+#include "core/rating/line_region.hpp"
 
 namespace flankwright {
 
 namespace {
 
-constexpr std::size_t curves = 4;  ///< transmission error, the same turned over, contact stress, line load
+constexpr std::size_t curves = 5;  ///< transmission error, the same turned over, contact stress, line load, stress on tip edges (0 without)
 using Values = std::array<double, curves>;
 
 Values values_of(const LoadedPosition& position) {
   const double te = position.load.transmission_error;
-  return {te, -te, position.contact_stress.maxCoeff(), position.peak_load.maxCoeff()};
+  const double on_edges = position.edge_stress.size() > 0 ? position.edge_stress.maxCoeff() : 0.0;
+  return {te, -te, position.contact_stress.maxCoeff(), position.peak_load.maxCoeff(), on_edges};
 }
 
 /// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
@@ -37,19 +39,22 @@ class Search {
       approach += (position.load.transmission_error - position.gap.total.minCoeff()) / static_cast<double>(cycle.positions.size());
     }
     const double variation = std::max(best(0) + best(1), quiet_share * approach);
-    slack_ = {settings.tolerance * variation, settings.tolerance * variation, settings.tolerance * best(2), settings.tolerance * best(3)};
+    slack_ = {settings.tolerance * variation, settings.tolerance * variation, settings.tolerance * best(2), settings.tolerance * best(3),
+              settings.tolerance * best(2)};
   }
 
   CycleExtremes run() {
     CycleExtremes found;
+    std::set<double> probes(settings_.first.begin(), settings_.first.end());
     while (found.looked_at < settings_.most) {
-      std::set<double> probes;
       for (std::size_t c = 0; c < curves; ++c) {
         const CurveRise promise = highest_promise(c);
         if (promise.height > best(c) + slack_[c]) probes.insert(promise.x);
       }
+      std::erase_if(probes, [this](double phase) { return known_.contains(phase); });
       if (probes.empty()) break;
       const std::vector<double> phases(probes.begin(), probes.end());
+      probes.clear();
       const MeshModel mesh = mesh_at_(phases);
       const LoadedCycle cycle = analyse_cycle(mesh, condition_, torque_, {}, {}, RootStresses::Later);
       found.looked_at += static_cast<int>(phases.size());
@@ -59,6 +64,7 @@ class Search {
     std::set<double> phases;
     for (std::size_t c = 0; c < curves; ++c) {
       const double phase = std::ranges::max_element(known_, {}, [c](const auto& entry) { return entry.second[c]; })->first;
+      if (known_.at(phase)[c] == 0.0) continue;  // no tip edge is reached
       if (!even_.contains(phase)) phases.insert(phase);
     }
     found.phases.assign(phases.begin(), phases.end());
@@ -67,6 +73,7 @@ class Search {
     unseen(Figure::TePeakToPeak) = rise(0) + rise(1);
     unseen(Figure::PeakContactStress) = rise(2);
     unseen(Figure::PeakLineLoad) = rise(3);
+    found.unseen_edge_stress = rise(4);
     return found;
   }
 
@@ -80,15 +87,15 @@ class Search {
     std::vector<CurveSample> once, curve;
     for (const auto& [phase, values] : known_) once.push_back({phase, values[c]});
     const std::size_t n = once.size();
-    for (std::size_t i = 0; i < n + 5; ++i) curve.push_back({once[i % n].x + static_cast<double>(i / n), once[i % n].y});
+    for (std::size_t i = 0; i < n + 7; ++i) curve.push_back({once[i % n].x + static_cast<double>(i / n), once[i % n].y});
     CurveRise highest;
     for (std::size_t i = 0; i < n; ++i) {
-      const double from = curve[i + 2].x, length = curve[i + 3].x - from;
+      const double from = curve[i + 3].x, length = curve[i + 4].x - from;
       if (length <= shortest) continue;
-      CurveRise rise = rise_between(curve, i + 2);
+      CurveRise rise = rise_between(curve, i + 3);
       if (!(rise.height > highest.height)) continue;
       rise.x = from + std::clamp(std::round(parts * (rise.x - from) / length), 1.0, parts - 1.0) / parts * length;
-      if (rise.x >= 1.0) rise.x -= 1.0;
+      rise.x -= std::floor(rise.x);
       highest = rise;
     }
     return highest;
@@ -104,6 +111,37 @@ class Search {
 };
 
 }  // namespace
+
+std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle& cycle) {
+  const bool has_edges = std::ranges::any_of(model.positions, [](const MeshPosition& at) {
+    return std::ranges::any_of(at.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
+  });
+  const double spacing = 1.0 / static_cast<double>(cycle.positions.size());
+  const LineRegion region(model);
+  const double at_start = region.path.phase_at(0.0, region.face_start), at_end = region.path.phase_at(0.0, region.face_end);
+  if (!has_edges || !(std::abs(at_end - at_start) < spacing)) return {};
+  const double middle = 0.5 * (at_start + at_end);
+  std::vector<double> phases;
+  for (const bool is_start : {true, false}) {
+    const double passage = (is_start ? region.first : region.last) - middle, outwards = is_start ? -1.0 : 1.0;  // line phase of A, of E
+    const auto carries = [&](std::size_t p) {
+      const MeshPosition& at = model.positions[p];
+      for (std::size_t i = 0; i < at.points.size(); ++i) {
+        const double inside = outwards * (passage - at.phase - at.points[i].tooth);
+        if (inside >= 0.0 && inside < spacing && cycle.positions[p].load.line_load[static_cast<Eigen::Index>(i)] > 0.0) return true;
+      }
+      return false;
+    };
+    bool is_loaded = false;
+    for (std::size_t p = 0; p < cycle.positions.size() && !is_loaded; ++p) is_loaded = carries(p);
+    if (!is_loaded) continue;
+    for (const int thirds : {1, 2, 3, 4}) {
+      const double phase = passage + outwards * thirds / 3.0 * spacing;
+      phases.push_back(phase - std::floor(phase));
+    }
+  }
+  return phases;
+}
 
 CycleExtremes locate_extremes(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const LoadedCycle& cycle,
                               const ExtremeSearch& search) {

@@ -9,23 +9,33 @@ namespace flankwright {
 
 struct ExtremeSearch {
   /// Located where no interval between positions looks as if the extreme rose by more than this [-], > 0: of the peak to peak (at least
-  /// quiet_share of the mean deflection) for the transmission error, of the peak for stress and line load.
+  /// quiet_share of the mean deflection) for the transmission error, of the peak for stress and line load, of the peak contact stress for the stress on tip edges.
   double tolerance{2e-3};
-  int most{32};  ///< positions looked at before the search gives up, >= 1
+  int most{32};                 ///< positions looked at before the search gives up, >= 1
+  std::vector<double> first{};  ///< positions looked at before all others [base pitches], 0 .. 1, see tip_edge_passages()
 };
 
 /// A cycle's extremes between its positions: each of these positions has the largest or smallest transmission error,
-/// the largest contact stress or the largest line load of all that were solved.
+/// the largest contact stress, the largest line load or the largest stress on tip edges of all that were solved.
 struct CycleExtremes {
-  std::vector<double> phases;  ///< [base pitches], rising; empty where the cycle's own positions have all extremes
-  PerFigure unseen{};          ///< by how much extremes may still be larger, in the figures' units; 0 for what is no extreme
-  int looked_at{0};            ///< positions solved
+  std::vector<double> phases;      ///< [base pitches], rising; empty where the cycle's own positions have all extremes
+  PerFigure unseen{};              ///< by how much extremes may still be larger, in the figures' units; 0 for what is no extreme
+  double unseen_edge_stress{0.0};  ///< likewise of the stress on tip edges [MPa]
+  int looked_at{0};                ///< positions solved
 };
+
+/// Phases before A and after E at which a tip edge may carry unseen between the positions of a cycle. Where a whole line passes the edge in less than the spacing of the
+/// positions, slope * b < spacing, as on spur gears, an edge may carry for less than that, a little outside of A and E: four phases to either side are looked
+/// at, a third of the spacing apart. None for longer passages, which several positions see, without edges that carry, and where the line that lies next to
+/// the edge on the flank carries nothing.
+/// @param cycle  of the model, at equally spaced phases
+std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle& cycle);
 
 /// Seeks the extremes of a cycle in continuous phase. Curves consist of smooth pieces with kinks where lines begin and
 /// end. In every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant
 /// or by the slope extrapolated from the last two secants, whichever is steeper: curves grow steeper towards a kink. On
-/// a smooth top, such as that of a load that passes a corner of the face, a parabola through three neighbours is taken.
+/// a smooth top, such as that of a load that passes a corner of the face, a parabola through three neighbours is taken. Beside a position that is
+/// alone on its piece the curve may go on rising, see rise_between().
 /// The most promising phase is solved next. On a kink both meet near the extreme itself, so that two or three positions
 /// a curve are enough.
 /// @param mesh_at  of the cycle; no root stress is needed

@@ -40,7 +40,10 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
   resolved.summary = summarise(model, cycle);
   if (!cycle.usable() || !(cycle.force > 0.0)) return resolved;
   const MeshAt without_parameters = [&](const std::vector<double>& phases) { return mesh_at(phases, {}); };
-  if (resolving.seek_extremes) resolved.extremes = locate_extremes(without_parameters, condition, pinion_torque, cycle);
+  if (resolving.seek_extremes) {
+    const ExtremeSearch search{.first = tip_edge_passages(model, cycle)};
+    resolved.extremes = locate_extremes(without_parameters, condition, pinion_torque, cycle, search);
+  }
   if (!resolved.extremes.phases.empty()) {
     const auto mesh = std::make_shared<const MeshModel>(mesh_at(resolved.extremes.phases, parameters));
     resolved.extreme_cycle = analyse_cycle(*mesh, condition, pinion_torque, parameters);

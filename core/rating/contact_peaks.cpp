@@ -30,11 +30,15 @@ class Line {
 
   ContactPeaks::Pair at_point(std::size_t i) const { return peaks(at_.points[i].z, load(i), stress(i)); }
 
-  /// Nothing beyond the first and last point.
+  /// Whether contact reaches a rounded tip edge.
+  bool is_on_edge(std::size_t i) const { return loaded_.edge_stress.size() > 0 && loaded_.edge_stress[static_cast<Eigen::Index>(i)] > 0.0; }
+
+  /// Nothing beyond the first and last point, and beside a tip edge that carries.
   ContactPeaks::Pair at_z(double z) const {
     for (std::size_t i = begin_; i + 1 < end_; ++i) {
       const double z0 = at_.points[i].z, z1 = at_.points[i + 1].z;
       if (z < z0 || z > z1) continue;
+      if (is_on_edge(i) || is_on_edge(i + 1)) return {};
       const double t = (z - z0) / (z1 - z0);
       const auto between = [t](double a, double b) { return (1.0 - t) * a + t * b; };
       return peaks(z, between(load(i), load(i + 1)), std::sqrt(between(stress(i) * stress(i), stress(i + 1) * stress(i + 1))));
@@ -56,12 +60,15 @@ class Line {
   std::size_t begin_, end_;
 };
 
-/// The search at one phase: four peaks, each with its own samples to compare.
-constexpr std::array<const LinePeak& (*)(const ContactPeaks&), 4> sought{
+/// What is sought: peaks, each with its own samples to compare. The last two only where all points are asked for.
+constexpr std::array<const LinePeak& (*)(const ContactPeaks&), 6> sought{
     +[](const ContactPeaks& p) -> const LinePeak& { return p.with_spikes.contact_stress; },
     +[](const ContactPeaks& p) -> const LinePeak& { return p.with_spikes.line_load; },
     +[](const ContactPeaks& p) -> const LinePeak& { return p.without_spikes.contact_stress; },
-    +[](const ContactPeaks& p) -> const LinePeak& { return p.without_spikes.line_load; }};
+    +[](const ContactPeaks& p) -> const LinePeak& { return p.without_spikes.line_load; },
+    +[](const ContactPeaks& p) -> const LinePeak& { return p.everywhere.contact_stress; },
+    +[](const ContactPeaks& p) -> const LinePeak& { return p.everywhere.line_load; }};
+constexpr std::size_t sought_on_flanks = 4;
 
 /// Peaks of the positions solved so far, by phase.
 class Samples {
@@ -91,6 +98,7 @@ class Samples {
     for (const auto& [phase, peaks] : by_phase_) {
       raise(all.with_spikes, peaks.with_spikes);
       raise(all.without_spikes, peaks.without_spikes);
+      raise(all.everywhere, peaks.everywhere);
       all.failures += peaks.failures;
     }
     all.positions = static_cast<int>(by_phase_.size());
@@ -145,15 +153,15 @@ struct Bracket {
 };
 
 /// Brackets around the samples that are no lower than both neighbours and worth the while.
-std::vector<Bracket> brackets(const Samples& samples, double worth) {
+std::vector<Bracket> brackets(const Samples& samples, const PeakSearch& search) {
   const std::vector<double> phases = samples.phases();
   std::vector<Bracket> found;
-  for (std::size_t which = 0; which < sought.size(); ++which) {
+  for (std::size_t which = 0; which < (search.everywhere ? sought.size() : sought_on_flanks); ++which) {
     const double best = samples.best(which);
     for (std::size_t i = 1; i + 1 < phases.size(); ++i) {
       const double here = samples.value(which, phases[i]);
       const bool lower = here < samples.value(which, phases[i - 1]) || here < samples.value(which, phases[i + 1]);
-      if (here >= worth * best && !lower) found.push_back({which, phases[i - 1], phases[i], phases[i + 1]});
+      if (here >= search.worth * best && !lower) found.push_back({which, phases[i - 1], phases[i], phases[i + 1]});
     }
   }
   return found;
@@ -189,6 +197,8 @@ ContactPeaks peaks_at(const MeshModel& model, const MeshPosition& at, const Load
     const bool long_enough = whole.end - whole.begin >= rule.line_share * region.longest - LineRegion::round_off * model.face_width;
     for (std::size_t i = begin; i < end; ++i) {
       const double z = at.points[i].z;
+      raise(peaks.everywhere, line.at_point(i));
+      if (line.is_on_edge(i)) continue;
       raise(peaks.with_spikes, line.at_point(i));
       if (long_enough && z >= counted.begin && z <= counted.end) raise(peaks.without_spikes, line.at_point(i));
     }
@@ -244,7 +254,7 @@ ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition
   phases.insert(phases.begin(), before);
   Samples samples(mesh_at, condition, pinion_torque, search.spikes);
   samples.add(phases);
-  std::vector<Bracket> open = brackets(samples, search.worth);
+  std::vector<Bracket> open = brackets(samples, search);
   while (true) {
     std::erase_if(open, [&](const Bracket& b) { return b.is_done(samples, search); });
     if (open.empty()) break;
@@ -254,6 +264,7 @@ ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition
     for (Bracket& b : open) b.take(samples, b.probe());
   }
   ContactPeaks peaks = samples.over_all();
+  if (!search.everywhere) peaks.everywhere = {};
   peaks.search_step = search.step;
   peaks.phase_tolerance = search.phase_tolerance;
   peaks.spikes = search.spikes;

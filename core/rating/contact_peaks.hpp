@@ -19,6 +19,9 @@ namespace flankwright {
 ///
 /// Ends of lines on the faces are no spikes. On spur gears, whose lines are parallel to the tip edges, the rule leaves out
 /// only what lies before A and after E.
+///
+/// Where contact reaches a rounded tip edge its pressure is that of the edge and several times that of the flanks. Such a point counts neither with nor without
+/// spikes, but only `everywhere`: a load distribution compares flanks.
 struct SpikeRule {
   double line_share{0.5};    ///< [-], 0 .. 1
   double end_distance{1.0};  ///< [m_n], >= 0; in the thesis the distance of two points on a line (section 3.4: 1.1 m_n)
@@ -32,13 +35,14 @@ struct LinePeak {
   double z{not_given};      ///< [mm]
 };
 
-/// Peaks over all points, and over those that are no spikes.
+/// Peaks over the points whose contact reaches no rounded tip edge, over those of them that are no spikes, and over all points where these were asked for.
 struct ContactPeaks {
   struct Pair {
     LinePeak contact_stress;  ///< sigma_H [MPa]
     LinePeak line_load;       ///< [N/mm]
   };
   Pair with_spikes, without_spikes;   ///< value NaN without a point
+  Pair everywhere;                    ///< edges included; NaN where they were not sought
   int positions{0};                   ///< mesh positions solved
   int failures{0};                    ///< of these without a usable load distribution: the peaks are then those of the others
   double search_step{not_given};      ///< used [base pitches]
@@ -49,6 +53,7 @@ struct ContactPeaks {
 /// At one mesh position. A point has what is highest on its part of the line, crests and ends between points included, see
 /// LoadedPosition::peak_load. Where the rule's cut falls between two points, the cut counts too: w and sigma_H^2 of the points are taken as linear
 /// in between, so that the peak is a continuous function of the phase.
+/// All of them, `everywhere` included.
 ContactPeaks peaks_at(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded, const SpikeRule& rule = {});
 
 /// The same mesh at any phases [base pitches].
@@ -56,6 +61,7 @@ using MeshAt = std::function<MeshModel(const std::vector<double>& phases)>;
 
 struct PeakSearch {
   SpikeRule spikes{};
+  bool everywhere{false};  ///< peaks of tip edges are sought as well
   /// First positions are at most this far apart, in addition to all at which a line begins or ends at A0, A, E or B0 or passes the
   /// length of the spike rule [base pitches], > 0.
   double step{1.0 / 32};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "optimize/design/design_log.hpp"
+#include "optimize/design/two_level.hpp"
 
 namespace flankwright {
 
@@ -87,7 +88,9 @@ std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const D
   task.grindable = {};
   DesignProblem limited(std::move(task));
   limited.set_start(limited.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0));
-  DesignResult result = optimise_design(limited, SolverOptions{});
+  DesignOptions options;
+  options.to_grind = false;
+  DesignResult result = optimise_by_two_levels(limited, options).design;
   const std::vector<LoadedCycle>& cycles = result.after.analysis.cycles;
   const bool usable = std::ranges::all_of(cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   if (!usable || limited.violation(result.after.analysis) > DesignLog::tolerance) return found;

@@ -19,24 +19,6 @@ constexpr double coarse_tolerance = 1e-4;
 /// Likewise of the finisher: 1e-5 of a range of 100 um is 1 nm, far below what can be ground.
 constexpr double fine_tolerance = 1e-5;
 
-/// The best of the coarse optima, judged by the fine problem: feasible before infeasible, then by the objective.
-Eigen::VectorXd best_start(DesignProblem& fine, const DesignResult& coarse, const Eigen::VectorXd& coarse_best) {
-  std::vector<Eigen::VectorXd> candidates{coarse_best};
-  for (const LocalOptimum& optimum : coarse.optima) candidates.push_back(coarse.runs[optimum.run].x);
-  Eigen::VectorXd best = coarse_best;
-  double least = INFINITY, least_violation = INFINITY;
-  for (const Eigen::VectorXd& x : candidates) {
-    const DesignAnalysis& analysis = fine.analyse(x, false);
-    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) continue;
-    const double objective = fine.objective(analysis), violation = std::max(0.0, fine.violation(analysis) - DesignLog::tolerance);
-    if (!(violation < least_violation || (violation == least_violation && objective < least))) continue;
-    best = x;
-    least = objective;
-    least_violation = violation;
-  }
-  return best;
-}
-
 void join(const DesignResult& coarse, DesignResult& fine) {
   const int fine_runs_start = coarse.history.empty() ? 0 : coarse.history.back().evaluation;
   fine.solver = coarse.solver;
@@ -79,6 +61,46 @@ SolverOptions left_of(SolverOptions options, const DesignResult& found) {
 
 }  // namespace
 
+std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignResult& found, const Eigen::VectorXd& x_found) {
+  std::vector<Eigen::VectorXd> candidates{x_found};
+  for (const LocalOptimum& optimum : found.optima) candidates.push_back(found.runs[optimum.run].x);
+  const Eigen::VectorXd *lowest = nullptr, *nearest = nullptr;
+  double least = INFINITY, least_violation = INFINITY, objective_of_nearest = INFINITY;
+  for (const Eigen::VectorXd& x : candidates) {
+    const DesignAnalysis& analysis = problem.analyse(x, false);
+    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) continue;
+    const double objective = problem.objective(analysis), violation = std::max(0.0, problem.violation(analysis) - DesignLog::tolerance);
+    if (objective < least) {
+      least = objective;
+      lowest = &x;
+    }
+    if (violation < least_violation || (violation == least_violation && objective < objective_of_nearest)) {
+      least_violation = violation;
+      objective_of_nearest = objective;
+      nearest = &x;
+    }
+  }
+  if (nearest == nullptr) return {x_found};
+  if (lowest == nearest || !(least < objective_of_nearest)) return {*nearest};
+  return {*nearest, *lowest};
+}
+
+void go_on_from_best(DesignProblem& problem, const DesignOptions& options, const std::vector<Eigen::VectorXd>& starts, TwoLevelDesign& found) {
+  const TwoLevelDesign before = found;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    TwoLevelDesign further = before;
+    further.fine.cycles = found.fine.cycles;
+    problem.set_start(starts[i]);
+    go_on(problem, options, further);
+    const bool keeps = further.design.status != SolverStatus::Infeasible, kept = found.design.status != SolverStatus::Infeasible;
+    if (i == 0 || (keeps && !kept) || (keeps == kept && further.design.after.objective < found.design.after.objective)) {
+      found = std::move(further);
+    } else {
+      found.fine.cycles = further.fine.cycles;
+    }
+  }
+}
+
 bool can_be_coarser(const DesignTask& task) {
   const Quadrature& quadrature = task.resolution.quadrature;
   return quadrature.rule == QuadratureRule::Graded && quadrature.intervals >= 2 * fewest_search_intervals;
@@ -119,9 +141,9 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
 
   const Stopwatch fine_clock;
   result.design = coarse;
-  problem.set_start(best_start(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0)));
+  const std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0));
   result.fine.cycles = problem.cycles() - cycles_before;
-  go_on(problem, options, result);
+  go_on_from_best(problem, options, starts, result);
   result.fine.seconds = fine_clock.seconds();
   result.design.seconds = clock.seconds();
   return result;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "optimize/design/design_optimiser.hpp"
 
@@ -31,14 +32,23 @@ DesignTask coarser(DesignTask task);
 bool can_be_coarser(const DesignTask& task);
 
 /// Searches coarsely from all starts, judges every optimum found at the task's own resolution, and continues there from
-/// the best by the finisher, whose active set needs few analyses near an optimum. All reported values are of the fine
+/// the best, see best_starts(), by the finisher, whose active set needs few analyses near an optimum. All reported values are of the fine
 /// level. Rounding is done there only.
 /// @param problem  of the fine level
 /// @throws InvalidInput as optimise_design()
 TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOptions& options);
 
+/// Of a design and the optima that a search found beside it, judged by a problem of another resolution: the one that exceeds the constraints least, of several the one of the
+/// lowest objective, and behind it the one of the lowest objective of all where that is another. A search from there may mend what this one exceeds.
+/// @param x_found  of the design, scaled
+std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignResult& found, const Eigen::VectorXd& x_found);
+
 /// Continues at the fine level from the problem's start by the finisher; the result replaces the design's fine part.
 void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+
+/// The same from each of the starts; the result is the best: one that keeps the constraints before one that does not, then that of the lower objective.
+/// @param starts  scaled, at least one
+void go_on_from_best(DesignProblem& problem, const DesignOptions& options, const std::vector<Eigen::VectorXd>& starts, TwoLevelDesign& found);
 
 /// What a search with DesignOptions::to_grind = false has left: chooses what can be ground of the design found.
 void choose_what_to_grind(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);

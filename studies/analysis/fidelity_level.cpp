@@ -95,11 +95,11 @@ std::vector<CycleFigures> LevelRunner::figures(const FidelityLevel& level) {
     CycleFigures figures = cycle.figures();
     if (level.located_peaks) {
       const auto mesh_at = [&](const std::vector<double>& phases) { return mesh_for({level.quadrature, phases}); };
-      const ContactPeaks peaks = locate_peaks(mesh_at, scene.condition, scene.torque);
+      const ContactPeaks peaks = locate_peaks(mesh_at, scene.condition, scene.torque, {.everywhere = true});
       if (peaks.failures > 0) return {};
-      figures[Figure::LoadFactor] *= peaks.with_spikes.line_load.value / figures[Figure::PeakLineLoad];
-      figures[Figure::PeakLineLoad] = peaks.with_spikes.line_load.value;
-      figures[Figure::PeakContactStress] = peaks.with_spikes.contact_stress.value;
+      figures[Figure::LoadFactor] *= peaks.everywhere.line_load.value / figures[Figure::PeakLineLoad];
+      figures[Figure::PeakLineLoad] = peaks.everywhere.line_load.value;
+      figures[Figure::PeakContactStress] = peaks.everywhere.contact_stress.value;
     }
     all.push_back(figures);
   }

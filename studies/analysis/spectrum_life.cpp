@@ -122,9 +122,13 @@ double stress_safety(const std::optional<SnCurve>& curve, double cycles, double 
 void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
   of.iso = iso_stress_numbers(model.pair, model.material, loaded.torque, model.face_width);
   of.K_from_contact = loaded.rating.has_value() && !std::isnan(loaded.rating->factors.without_spikes.combined);
-  const double K_Hbeta = of.K_from_contact ? loaded.rating->factors.without_spikes.lead : loaded.iso.lead;
-  of.K_H = of.K_from_contact ? loaded.rating->factors.without_spikes.combined : loaded.iso.combined();
-  of.K_F = of.K_H / K_Hbeta * root_face_load_factor(model.pair, model.face_width, K_Hbeta);
+  const double lead = of.K_from_contact ? loaded.rating->factors.without_spikes.lead : loaded.iso.lead;
+  const double combined = of.K_from_contact ? loaded.rating->factors.without_spikes.combined : loaded.iso.combined();
+  // ISO 6336-1: neither factor is below 1. A flank better than the perfect one earns nothing.
+  const auto at_least_one = [](double factor) { return factor < 1.0 ? 1.0 : factor; };  // NaN stays
+  const double K_Hbeta = at_least_one(lead), K_Halpha = at_least_one(combined / K_Hbeta);
+  of.K_H = K_Hbeta * K_Halpha;
+  of.K_F = K_Halpha * root_face_load_factor(model.pair, model.face_width, K_Hbeta);
   for (const Member m : both_gears) {
     const FatigueStrength& strength = life.strength[m];
     const double cycles = load_cycles(model.pair, m, loaded.operation);

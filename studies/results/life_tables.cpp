@@ -104,6 +104,13 @@ std::string life_table(const StudyResults& results, std::size_t width) {
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
+  const bool has_safety = std::ranges::any_of(life.cases, [](const CaseLife& c) { return !std::isnan(least_safety(c.iso_contact_safety)); });
+  const bool by_method_c = std::ranges::any_of(life.cases, [](const CaseLife& c) { return !c.K_from_contact; });
+  if (has_safety && by_method_c) {
+    out +=
+        "S_H: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment and for which rims on webs do not tilt; an analysis of the design has K_H of the "
+        "loaded contact\n";
+  }
   for (const Member m : each_gear) out += grade_line(results.study.life, m);
   return out;
 }

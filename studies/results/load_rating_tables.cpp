@@ -29,7 +29,7 @@ std::array<double, 4> values_of(const std::optional<LoadRating>& rating, LoadFac
 
 constexpr std::array<Definition, 4> definitions{{
     {"without_spikes", "without spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::without_spikes); }},
-    {"with_spikes", "with spikes and edges", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::with_spikes); }},
+    {"with_spikes", "with spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::with_spikes); }},
     {"line_load", "line load", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::line_load); }},
     {"iso6336", "ISO 6336",
      [](const LoadedResult& l) {

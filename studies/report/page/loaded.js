@@ -185,7 +185,7 @@ function load_factor_table(body, rows) {
   const intervals = record(summary_of(rated[0].load_case.designs[rated[0].design]).peaks).intervals;
   const lines = ({ load_case, design }) => {
     const entry = load_case.designs[design], iso = record(summary_of(entry).iso6336);
-    const calculated = [["without spikes", "without_spikes"], ["with spikes and edges", "with_spikes"], ["line load", "line_load"]].map(([label, key]) => {
+    const calculated = [["without spikes", "without_spikes"], ["with spikes", "with_spikes"], ["line load", "line_load"]].map(([label, key]) => {
       const k = factors(entry, key);
       return [label, k.K_Hbeta, k.K_Halpha, k.K_Hbeta_times_K_Halpha, k.K_H, peak(entry, key)];
     });
@@ -197,7 +197,7 @@ function load_factor_table(body, rows) {
     note: symbols("Squared ratios of the peak contact stress to that of the perfect pair on rigid shafts, and the ratio of the peak line loads without spikes. K_Hβ has only deviations along the face and "
       + "shafts, K_Hα only deviations along the profile and from tooth to tooth, K_H all of them; K_H is not the product of the two. Peaks are sought between the "
       + `positions too, with ${fmt(intervals)} intervals along a contact line. Values without spikes leave out short contact lines and `
-      + "line ends on tip edges. Values with them have tip edges too: where those of the perfect pair carry, a factor is far below 1. ISO 6336 values follow method C with the stiffness of the standard, and with f_sh of the shafts where there are any."),
+      + "line ends on tip edges. Points where contact reaches a tip edge count in neither. ISO 6336 values follow method C with the stiffness of the standard, and with f_sh of the shafts where there are any."),
     columns: [...case_columns, { label: "By" },
       { label: "K_Hβ" }, { label: "K_Hα" }, { label: "K_Hβ·K_Hα" }, { label: "K_H" }, { label: "Peak stress", unit: "MPa" }],
     rows: rated.flatMap(lines),

@@ -8,6 +8,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
+#include "optimize/assessment/usual_signs.hpp"
 #include "optimize/design/between_positions.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/life_error.hpp"
@@ -40,6 +41,7 @@ class OptimiseRun {
     exact.to_grind = false;
     TwoLevelDesign found = optimise_by_two_levels(problem, exact);
     take_more_positions(problem, exact, found);
+    take_better_usual_design(problem, exact, found);
     choose_what_to_grind(problem, choice, found);
     keep_constraints_between_positions(problem, choice, found);
     if (seeks_extremes(study))
@@ -163,9 +165,28 @@ class OptimiseRun {
     return excess;
   }
 
+  /// A design as it is shown, with what lies between the positions.
+  DesignReport shown_between_positions(const DesignProblem& problem, const DesignReport& report) {
+    DesignReport shown = report;
+    resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
+    return shown;
+  }
+
+  /// Whether the positions see too little of a design: the objective, or of a constraint that is exceeded the value, rises between them by more than the accuracy that an
+  /// analysis chooses its positions for. Where no design keeps the constraints, the excess takes the objective's place.
+  bool rises_between_positions(const DesignReport& at_positions, const DesignReport& shown, bool infeasible) const {
+    constexpr double accuracy = AutomaticResolution{}.accuracy;
+    if (infeasible) return 1.0 + excess_of(shown) > (1.0 + accuracy) * (1.0 + excess_of(at_positions));
+    const std::vector<OutputConstraint>& constraints = results_.design_task->constraints;
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+      const double value = shown.constraint_values[c], rise = value - at_positions.constraint_values[c];
+      if (constraints[c].excess(value) > DesignLog::tolerance && rise > accuracy * std::abs(constraints[c].limit())) return true;
+    }
+    return shown.objective > (1.0 + accuracy) * at_positions.objective;
+  }
+
   /// A search at few positions may leave a peak between them, such as that of an edge which a hundredth of a micrometre of relief keeps from touching. It goes
-  /// on at twice the positions where such a peak raises the objective by more than the accuracy that an analysis chooses its positions for. Where no design keeps
-  /// the constraints, the excess takes the objective's place.
+  /// on at twice the positions then.
   void take_more_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
     constexpr int most_turns = 2;
     const Cycle& cycle = results_.study.cycle;
@@ -173,44 +194,71 @@ class OptimiseRun {
       const Stopwatch clock;
       const double seconds = found.design.seconds;
       const DesignReport& best = found.design.exact ? *found.design.exact : found.design.after;
-      DesignReport shown = best;
-      resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
       const bool infeasible = found.design.status == SolverStatus::Infeasible;  // then it is the excess that was searched for
-      const double at_positions = infeasible ? 1.0 + excess_of(best) : best.objective,
-                   between = infeasible ? 1.0 + excess_of(shown) : shown.objective;
-      if (!(between > (1.0 + AutomaticResolution{}.accuracy) * at_positions)) return;
+      if (!rises_between_positions(best, shown_between_positions(problem, best), infeasible)) return;
       const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
       run_.set_positions(2 * cycle.positions);
       results_.design_task = design_task();
       problem = DesignProblem(*results_.design_task);
-      problem.set_start(x);
-      go_on(problem, options, found);
+      go_on_from_best(problem, options, best_starts(problem, found.design, x), found);
       found.fine.resolution = problem.task().resolution;
       found.fine.seconds += clock.seconds();
       found.design.seconds = seconds + clock.seconds();
     }
   }
 
+  /// A search that got stuck at a design that is seldom ground may be led past it by the limits that flanks have as a rule: where the best design within them is
+  /// better, the search goes on from there. A list of objectives has an optimum of each that the next one keeps, so that this is left out for it.
+  void take_better_usual_design(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+    const DesignReport& best = found.design.after;
+    const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
+    if (!usable || best.analysis.cycles.empty() || found.design.status == SolverStatus::Infeasible || !problem.task().later_objectives.empty())
+      return;
+    const Stopwatch clock;
+    run_.report("looking for the usual signs", 0, 1, "");
+    const std::optional<UsualSigns> usual = find_usual_signs(problem, best);
+    if (!usual || !usual->design || !(usual->price < -worth_going_on)) return;
+    const double seconds = found.design.seconds;
+    TwoLevelDesign further = found;
+    problem.set_start(problem.scaled_design(usual->design->variables).cwiseMax(0.0).cwiseMin(1.0));
+    go_on(problem, options, further);
+    if (further.design.status == SolverStatus::Infeasible || !(further.design.after.objective < found.design.after.objective)) return;
+    found = std::move(further);
+    found.fine.seconds += clock.seconds();
+    found.design.seconds = seconds + clock.seconds();
+  }
+  /// Relative gain of the objective below which two designs are as good.
+  static constexpr double worth_going_on = 1e-3;
+
   /// Extremes between the positions may exceed a constraint that is kept at the positions. It is then asked for at the positions with as much
-  /// to spare, and the search goes on from there; `problem` has these limits afterwards. Nothing to do where no design keeps the constraints at all.
+  /// to spare, and the search goes on from there; `problem` has these limits afterwards. A limit to which nothing would be left stays as it is. The design is kept that exceeds the
+  /// constraints least as it is shown. Nothing to do where no design keeps the constraints at all.
   void keep_constraints_between_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
     constexpr int most_turns = 3;
+    struct Turn {
+      TwoLevelDesign found;
+      DesignTask task;
+      double excess;
+    };
+    std::optional<Turn> best;
     const auto infeasible = [&] { return found.design.status == SolverStatus::Infeasible; };
-    for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty() && !infeasible(); ++turn) {
+    for (int turn = 0; turn <= most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty() && !infeasible(); ++turn) {
       const Stopwatch clock;
       const double seconds = found.design.seconds;
-      DesignReport shown = found.design.after;
-      resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
+      const DesignReport shown = shown_between_positions(problem, found.design.after);
+      const double excess = std::max(DesignLog::tolerance, excess_of(shown));
+      if (!best || excess < best->excess) best = Turn{found, problem.task(), excess};
       DesignTask tighter = problem.task();
       bool violated = false;
       for (std::size_t c = 0; c < tighter.constraints.size(); ++c) {
         const double at_positions = found.design.after.constraint_values[c], value = shown.constraint_values[c];
         if (!(results_.design_task->constraints[c].excess(value) > DesignLog::tolerance) || !(value > at_positions)) continue;
         const double limit = results_.design_task->constraints[c].limit() - (1.0 + spare) * (value - at_positions);
+        if (!(limit > 0.0)) continue;
         violated = violated || limit < tighter.constraints[c].maximum;
         tighter.constraints[c].maximum = std::min(tighter.constraints[c].maximum, limit);
       }
-      if (!violated) return;
+      if (!violated || turn == most_turns) break;
       const Eigen::VectorXd x = problem.scaled_design((found.design.exact ? *found.design.exact : found.design.after).variables);
       problem = DesignProblem(tighter);
       problem.set_start(x.cwiseMax(0.0).cwiseMin(1.0));
@@ -218,6 +266,13 @@ class OptimiseRun {
       found.fine.seconds += clock.seconds();
       found.design.seconds = seconds + clock.seconds();
     }
+    if (!best || (!infeasible() && best->excess >= std::max(DesignLog::tolerance, excess_of(shown_between_positions(problem, found.design.after)))))
+      return;
+    const double seconds = found.design.seconds, fine_seconds = found.fine.seconds;
+    problem = DesignProblem(best->task);
+    found = std::move(best->found);
+    found.design.seconds = seconds;
+    found.fine.seconds = fine_seconds;
   }
   /// Of what is asked for to spare, so that one more turn is seldom needed.
   static constexpr double spare = 0.1;
