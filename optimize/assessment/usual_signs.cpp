@@ -94,7 +94,7 @@ std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const D
   const std::vector<LoadedCycle>& cycles = result.after.analysis.cycles;
   const bool usable = std::ranges::all_of(cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   if (!usable || limited.violation(result.after.analysis) > DesignLog::tolerance) return found;
-  found.price = result.after.objective / best.objective - 1.0;
+  found.price = relative_increase(best.later_objectives.empty() ? best.objective : best.later_objectives.back(), result.after.objective);
   found.design = std::move(result.after);
   return found;
 }

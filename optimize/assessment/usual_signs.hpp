@@ -23,7 +23,7 @@ struct UsualSigns {
   static constexpr double noticed = 5e-4;
   std::vector<std::string> unusual;    ///< what the optimum has that is seldom ground: "a negative pinion lead crowning"
   std::optional<DesignReport> design;  ///< optimum of the same task under the limits as well; none where it was not found
-  double price{not_given};             ///< its objective over that of the optimum, less 1 [-]
+  double price{not_given};             ///< relative_increase() of the objective from the optimum, of a list of the last one [-]
 };
 
 /// @param problem  of a single objective: last_stage()

@@ -164,6 +164,11 @@ class DesignRun {
 
 }  // namespace
 
+double relative_increase(double from, double to) {
+  const double increase = (to - from) / std::abs(from);
+  return std::abs(increase) <= largest_increase ? increase : not_given;
+}
+
 std::string message_of_excess(double excess) {
   return "no design that keeps the constraints was found; this one exceeds them by least, " + in_percent(excess);
 }

@@ -32,6 +32,10 @@ struct LexicographicStage {
   double limit{not_given};  ///< it kept in the stages after it; NaN for the last
 };
 
+/// Increase of an objective as a share of what it was [-]; NaN where it has no meaning: from 0, or to more than `largest_increase` times more.
+double relative_increase(double from, double to);
+inline constexpr double largest_increase = 10.0;
+
 /// Outcome of a design run.
 struct DesignResult {
   SolverStatus status{SolverStatus::NotRun};
@@ -57,13 +61,14 @@ struct DesignResult {
   /// Two optima of which the better is lower by more than this share are different [-].
   static constexpr double same_objective = 1e-3;
   bool is_multimodal() const { return optima.size() > 1; }
-  /// Relative increase of the objective by choices and steps [-]; NaN without either.
-  /// The part of it that the choices make: of the last one's design [-]; 0 without choices, NaN without either.
+  /// relative_increase() of the objective from the exact optimum by choices and steps; of a list, of its first; NaN without either.
+  double rounding_loss() const { return exact ? relative_increase(exact->objective, after.objective) : not_given; }
+  /// That by the choices alone; of a list, of the last objective, which alternatives are judged by; 0 without choices.
   double choice_loss() const {
-    if (!exact) return not_given;
-    return choices.empty() ? 0.0 : choices.back().tried[choices.back().taken].objective / exact->objective - 1.0;
+    if (!exact || choices.empty()) return exact ? 0.0 : not_given;
+    const double last = exact->later_objectives.empty() ? exact->objective : exact->later_objectives.back();
+    return relative_increase(last, choices.back().tried[choices.back().taken].objective);
   }
-  double rounding_loss() const { return exact ? after.objective / exact->objective - 1.0 : not_given; }
 };
 
 /// Options of a run beyond those of its solver.

@@ -83,10 +83,15 @@ void check_bin(StudyReading& reading, SpectrumBin& bin, int index) {
     const Position at = reading.where(path + "." + key);
     reading.problems.push_back({at.file, at.line, at.column, path + "." + key, value, allowed});
   };
+  const auto is_refused = [&](const std::string& of) {
+    return std::ranges::any_of(reading.problems, [&](const StudyProblem& problem) { return problem.key == of; });
+  };
+  if (is_refused(path + ".hours") || is_refused(path + ".cycles") || is_refused(path + ".speed")) return;  // given, but not as it must be
   if (std::isnan(bin.speed)) bin.speed = reading.builder.base.speed;
   if (!std::isnan(bin.hours) && !std::isnan(bin.cycles)) return refuse("cycles", in_words(bin.cycles), "allowed is this or hours, not both");
   if (!std::isnan(bin.cycles)) return;
   if (std::isnan(bin.hours)) return refuse("hours", "(not given)", "required: allowed is a number above 0 h, or cycles instead");
+  if (!(bin.speed > 0.0) && is_refused("load.speed")) return;
   if (!(bin.speed > 0.0))
     return refuse("speed", "(not given)", "required with hours: allowed is a number above 0 rpm, here or as load.speed, or cycles instead of hours");
   bin.cycles = bin.hours * bin.speed / (2.0 * units::pi);

@@ -1,7 +1,9 @@
 #include "studies/study_file/study_reading.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string_view>
 
 #include "studies/base/printable.hpp"
 
@@ -87,6 +89,20 @@ Value read_word_list(const SchemaKey& key, const toml::node& node) {
   return value;
 }
 
+/// What a dotted path leads to: a key may have dots of its own, and the elements of a list go by their index. Null where nothing is given there.
+const toml::node* node_at(const toml::node& from, std::string_view path) {
+  if (path.empty()) return &from;
+  for (std::size_t dot = path.find('.');; dot = path.find('.', dot + 1)) {
+    const std::string_view key = path.substr(0, dot), rest = dot == std::string_view::npos ? std::string_view() : path.substr(dot + 1);
+    const toml::node* next = from.is_table() ? from.as_table()->get(key) : nullptr;
+    std::size_t index = 0;
+    const bool is_index = from.is_array() && std::from_chars(key.data(), key.data() + key.size(), index).ptr == key.data() + key.size();
+    if (is_index) next = from.as_array()->get(index);
+    if (const toml::node* found = next == nullptr ? nullptr : node_at(*next, rest)) return found;
+    if (dot == std::string_view::npos) return nullptr;
+  }
+}
+
 }  // namespace
 
 void StudyReading::refuse(const Position& at, const std::string& key, const toml::node* node, const std::string& allowed) {
@@ -102,7 +118,7 @@ void StudyReading::refuse(const Position& at, const std::string& key, const toml
 
 void StudyReading::refuse_key(const std::string& path, const std::string& allowed) {
   const Match* match = find(path);
-  refuse(where(path), path, match == nullptr ? nullptr : match->node, allowed);
+  refuse(where(path), path, match == nullptr ? node_at(document.root(), path) : match->node, allowed);
 }
 
 const Match* StudyReading::find(const std::string& path) const {

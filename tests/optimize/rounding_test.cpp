@@ -21,6 +21,16 @@ bool is_multiple(double value, double step) { return std::abs(value / step - std
 
 }  // namespace
 
+TEST_CASE("An increase from nothing, or to many times as much, is no share of what it was", "[optimize][design]") {
+  CHECK(relative_increase(4.0, 5.0) == 0.25);
+  CHECK(relative_increase(4.0, 3.0) == -0.25);
+  CHECK(relative_increase(-4.0, -3.0) == 0.25);
+  CHECK(relative_increase(1.0, 1.0 + largest_increase) == largest_increase);
+  CHECK(std::isnan(relative_increase(0.0, 0.0)));
+  CHECK(std::isnan(relative_increase(0.0, 1.0)));
+  CHECK(std::isnan(relative_increase(1e-10, 5e-4)));
+}
+
 TEST_CASE("The rounded design lies on the steps, loses little, and no neighbour is better", "[optimize][design][rounding]") {
   const double step_um = GENERATE(1.0, 3.0);
   CAPTURE(step_um);

@@ -62,6 +62,7 @@ function rule_fact(optimise) {
   if (!is_number(best.objective) || !is_number(after)) return null;
   const value = `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}`.trim();
   if (optimise.scatter) return ["Best rule of thumb", el("span", { title: best.name }, `${value} over the listed scenes`)];
+  if (!(after > 0)) return ["Best rule of thumb", el("span", { title: best.name }, value), best.objective < after ? "bad" : null];
   const times = best.objective / after, percent = 100 * (times - 1);
   const beside = times > 3 ? `${fmt(times, 2)} times as much` : `${fmt(Math.abs(percent), 2)} % ${percent < 0 ? "less" : "more"}`;
   return ["Best rule of thumb", el("span", { title: best.name }, `${value}, ${beside}`), best.objective < after ? "bad" : null];

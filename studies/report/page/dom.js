@@ -22,6 +22,12 @@ const maximum = (values) => numbers(values).reduce((a, b) => Math.max(a, b), -In
 const minimum = (values) => numbers(values).reduce((a, b) => Math.min(a, b), Infinity);
 const unique = (values) => [...new Set(values)];
 
+/** 10 to an integer power, as it is printed. */
+const power_of_ten = (power) => `10${[...String(power)].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c])).join("")}`;
+
+/** Sizes that are written with a power of ten. */
+const takes_power = (size) => size < 1e-4 || size >= 1e7;
+
 /** A number at `digits` significant digits, a true minus sign, no padding zeros; a dash for what did not run. */
 function fmt(x, digits = 4) {
   if (typeof x === "string") return x;
@@ -31,9 +37,9 @@ function fmt(x, digits = 4) {
   const size = Math.abs(x);
   let text = String(Number(x.toPrecision(digits)));
   if (size >= 10 ** digits && size < 1e7) text = String(Math.round(x));
-  if (size < 1e-4 || size >= 1e7) {
+  if (takes_power(size)) {
     const [mantissa, power] = x.toExponential(1).split("e");
-    text = `${mantissa}·10${[...power].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c])).join("")}`;
+    text = `${mantissa}·${power_of_ten(Number(power))}`;
   }
   return text.replace(/-/g, "−");
 }
@@ -51,15 +57,25 @@ const error_decimals = (error) => {
   return (error / 10 ** power < 1.95 ? 1 : 0) - power;
 };
 
-/** "0.28 ± 0.01": a value rounded to the size of its error; without an error, at `digits` significant digits. */
+/** A number rounded to so many decimals, below 0 to tens or hundreds. */
+const rounded = (x, decimals) => (decimals < 0 ? fixed(Math.round(x / 10 ** -decimals) * 10 ** -decimals, 0) : fixed(x, decimals));
+
+/**
+ * "0.28 ± 0.01", "1200 ± 300", "(2.7 ± 0.6)·10⁷": a value rounded to the size of its error, both written alike; without an error, at `digits`
+ * significant digits.
+ */
 function with_error(value, error, digits = 3) {
-  if (!is_number(value) || !is_number(error) || !(error > 0)) return fmt(value, digits);
-  if (Math.abs(value) >= 1e7) return `${fmt(value, digits)} ± ${fmt(error, 2)}`;  // a power of ten, as fmt() writes it
-  const decimals = error_decimals(error);
   // With an error below the fifth digit the value is exact to all digits shown.
+  if (!is_number(value) || !is_number(error) || !(error > 0)) return fmt(value, digits);
   if (error < 1e-5 * Math.abs(value)) return fmt(value, 5);
-  return `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
+  const size = Math.max(Math.abs(value), error), decimals = error_decimals(error);
+  if (!takes_power(size)) return `${rounded(value, decimals)} ± ${rounded(error, decimals)}`;
+  const power = Math.floor(Math.log10(size) + 1e-12), places = decimals + power;
+  return `(${rounded(value / 10 ** power, places)} ± ${rounded(error / 10 ** power, places)})·${power_of_ten(power)}`;
 }
+
+/** A value and its unit; the value alone where the unit is that of a plain number. */
+const in_unit = (text, unit) => (unit ? `${text} ${unit}` : `${text}`);
 
 /** A time in its usual unit. */
 const time_text = (s) => (!is_number(s) ? "–" : s < 0.1 ? `${fmt(1000 * s, 2)} ms` : s < 100 ? `${fmt(s, 2)} s` : s < 6000 ? `${fmt(s / 60, 2)} min` : `${fmt(s / 3600, 2)} h`);
@@ -104,12 +120,19 @@ const subscripts = (label) => label.split(/_(\p{L}+)/u).map((part, i) =>
 
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
+/** A fall of nearly 100 %, with one decimal or two and never rounded up to it. */
+function nearly_all(percent) {
+  if (percent === 100) return "100";
+  return percent < 99.95 ? fixed(percent, 1) : fixed(Math.min(percent, 99.99), 2);
+}
+
 /** Change from a to b in per cent with its sign, or nothing where it has no meaning. */
 function percent_change(a, b) {
   if (!is_number(a) || !is_number(b) || a === 0) return null;
   const percent = ((b - a) / Math.abs(a)) * 100;
   const size = Math.abs(percent);
-  return `${percent > 0 ? "+" : percent < 0 ? "−" : "±"}${size < 10 || size >= 1e7 ? fmt(size, 2) : Math.round(size)} %`;
+  const text = percent < 0 && size >= 99.5 && size <= 100 ? nearly_all(size) : size < 10 || size >= 1e7 ? fmt(size, 2) : Math.round(size);
+  return `${percent > 0 ? "+" : percent < 0 ? "−" : "±"}${text} %`;
 }
 
 // Text that a spreadsheet would take for a formula is kept as text by a leading apostrophe.

@@ -50,7 +50,7 @@ function constraint_facts(optimise) {
   return constraint_rows(optimise).map((row) => {
     const limits = [is_number(row.min) ? `at least ${fmt(row.min)}` : null, is_number(row.max) ? `at most ${fmt(row.max)}` : null].filter(Boolean).join(", ");
     const from = record(before[row.name]).value;
-    return [capital(words(row.name)), `${is_number(from) ? `${fmt(from, 3)} → ` : ""}${with_error(row.value, errors[row.name], 3)} ${row.unit}, ${limits}`,
+    return [capital(words(row.name)), `${is_number(from) ? `${fmt(from, 3)} → ` : ""}${in_unit(with_error(row.value, errors[row.name], 3), row.unit)}, ${limits}`,
       row.met === false ? "bad" : row.met ? "good" : null];
   });
 }
@@ -59,8 +59,8 @@ function constraint_facts(optimise) {
 function later_facts(optimise) {
   const from = list(record(optimise.before).later_objectives), to = list(record(optimise.after).later_objectives);
   return list(optimise.stages).slice(1).map((stage, i) => {
-    const { objective } = record(stage), unit = /^te_[a-z_0-9]+$/.test(objective) ? " µm" : /^[a-z_]+_stress$/.test(objective) ? " MPa" : "";
-    return [`Then ${words(objective)}`, `${fmt(from[i], 3)} → ${fmt(to[i], 3)}${unit} (${percent_change(from[i], to[i]) ?? "–"})`];
+    const { objective, unit } = record(stage);
+    return [`Then ${words(objective)}`, `${fmt(from[i], 3)} → ${in_unit(fmt(to[i], 3), pretty_unit(unit))} (${percent_change(from[i], to[i]) ?? "–"})`];
   });
 }
 

@@ -102,8 +102,13 @@ function grinding_table(plot, results) {
 function rounding_sentence(results) {
   const optimise = record(results.optimise), { loss_percent: all, choices_loss_percent: choices = 0 } = record(optimise.rounded);
   const own_steps = grinding_rows(results).some((row) => Number(given_value(results, `optimise.variables.${row.key}.step`)) > 0) || Number(given_value(results, "optimise.step")) > 0;
+  if (optimise.rounded && !is_number(all)) {
+    const [from, to] = [optimise.exact, optimise.rounded].map((design) => in_unit(fmt(record(design).objective, 3), pretty_unit(optimise.objective_unit)));
+    return `${own_steps ? "In the grinder's steps" : "Without what cannot be ground"}, with ${words(optimise.objective_name)} at ${to}${from === to ? "" : ` instead of ${from}`}.`;
+  }
   if (!is_number(all)) return own_steps ? "In the grinder's steps." : "Rounded to 0.1 µm and 0.1 mm.";
-  const cost = (percent) => `at a cost of ${fmt(Math.max(0, percent), 2)} %`;
+  const of_list = list(optimise.stages).length > 1 ? ` in ${words(optimise.objective_name)}` : "";
+  const cost = (percent) => `at a cost of ${fmt(Math.max(0, percent), 2)} %${of_list}`;
   const steps = 100 * ((1 + all / 100) / (1 + choices / 100) - 1);
   if (!(Math.abs(choices) > 0)) return `${own_steps ? "In the grinder's steps" : "Without what cannot be ground"}, ${cost(all)}.`;
   return `Without what cannot be ground, ${cost(choices)}${own_steps ? `; in the grinder's steps, at ${fmt(Math.max(0, steps), 2)} % more` : ""}.`;

@@ -6,9 +6,6 @@ const MOST_LIFE_ROWS = 60;
 
 const LIFE_GEARS = ["pinion", "wheel"];
 
-/** 10 to an integer power, as it is printed. */
-const power_of_ten = (power) => `10${[...String(power)].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c])).join("")}`;
-
 /** Options of an axis in decades: at most nine ticks, all of them at powers of ten. */
 function decades(low, high) {
   const from = Math.floor(Math.log10(low) + 1e-9), to = Math.ceil(Math.log10(high) - 1e-9), every = Math.max(1, Math.ceil((to - from) / 8));

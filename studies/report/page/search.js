@@ -62,6 +62,8 @@ function starts_tables(body, optimise, units) {
   });
 }
 
+const objective_row = (name, unit, exact, ground) => [unit ? `${words(name)} [${unit}]` : words(name), exact, { value: ground, text: fmt(ground) }];
+
 function build_search(results, body) {
   const optimise = record(results.optimise), unit = pretty_unit(optimise.objective_unit);
   const units = record(record(optimise.before).variable_units);
@@ -83,12 +85,15 @@ function build_search(results, body) {
   }
   if (optimise.rounded) {
     const exact = record(record(optimise.exact).variables), ground = record(record(optimise.rounded).variables);
+    const loss = record(optimise.rounded).loss_percent, what = list(optimise.grinding_choices).length > 0 ? "What cannot be ground" : "Rounding";
+    const stages = list(optimise.stages).map(record), later = (design) => list(record(design).later_objectives);
     table(body, {
       title: list(optimise.grinding_choices).length > 0 ? "Made grindable" : "Rounded to the grinder's steps",
       columns: [{ label: "Modification" }, { label: "Optimum" }, { label: "To grind", digits: 6 }],
       rows: [...Object.keys(ground).map((path) => [`${words(path)} [${pretty_unit(units[path])}]`, settled(exact[path], units[path]), ground[path]]),
-        [`${words(optimise.objective_name)} [${unit}]`, record(optimise.exact).objective, record(optimise.rounded).objective]],
-      note: `${list(optimise.grinding_choices).length > 0 ? "What cannot be ground" : "Rounding"} costs ${fmt(record(optimise.rounded).loss_percent)} % of the objective.`,
+        objective_row(optimise.objective_name, unit, record(optimise.exact).objective, record(optimise.rounded).objective),
+        ...stages.slice(1).map((stage, i) => objective_row(stage.objective, pretty_unit(stage.unit), later(optimise.exact)[i], later(optimise.after)[i]))],
+      note: is_number(loss) ? `${what} ${loss < 0 ? "reduces" : "raises"} the ${stages.length > 1 ? words(optimise.objective_name) : "objective"} by ${fmt(Math.abs(loss), 3)} %.` : undefined,
     });
   }
   starts_tables(body, optimise, units);

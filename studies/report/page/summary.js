@@ -28,7 +28,7 @@ function limit_words({ name, unit, seen, limit, sense }, optimise) {
     const found = record(record(record(optimise[design]).constraints)[name]), value = found[seen] ?? found.value;
     return is_number(value) ? fmt(value, 3) : null;
   };
-  return `${words(name)} to ${sense} ${fmt(limit)} ${unit}: ${[figure("before"), figure("after")].filter(Boolean).join(" → ")} ${unit}`;
+  return `${words(name)} to ${sense} ${in_unit(fmt(limit), unit)}: ${in_unit([figure("before"), figure("after")].filter(Boolean).join(" → "), unit)}`;
 }
 
 /**
@@ -51,9 +51,9 @@ function optimise_headline(optimise) {
   if (!is_number(from) || !is_number(to)) return `${subject} was not obtained`;
   const kept = exceeded_before ? `, to keep ${limit_words(exceeded_before, optimise)}` : "";
   const [a, b] = [fmt(from, 3), fmt(to, 3)];
-  if (a === b) return `${subject} stays at ${b} ${unit}${kept}`;
+  if (a === b) return `${subject} stays at ${in_unit(b, unit)}${kept}`;
   const change = percent_change(from, to);
-  return `${subject}: ${a} → ${b} ${unit}${change ? ` (${change})` : ""}${kept}`;
+  return `${subject}: ${a} → ${in_unit(b, unit)}${change ? ` (${change})` : ""}${kept}`;
 }
 
 function loaded_headline(cases, results) {
@@ -111,8 +111,8 @@ function draw_verdict(results, cases) {
   const broken = constraint_rows(optimise).filter((row) => row.met === false);
   if (broken.length > 0) {
     verdict.append(el("p", { class: "banner bad" }, `Not met: ${broken.map((row) =>
-      `${words(row.name)} ${fmt(row.value)} ${row.unit} against ${[is_number(row.min) ? `at least ${fmt(row.min)}` : null,
-        is_number(row.max) ? `at most ${fmt(row.max)}` : null].filter(Boolean).join(" and ")} ${row.unit}`).join("; ")}.`));
+      `${words(row.name)} ${in_unit(fmt(row.value), row.unit)} against ${in_unit([is_number(row.min) ? `at least ${fmt(row.min)}` : null,
+        is_number(row.max) ? `at most ${fmt(row.max)}` : null].filter(Boolean).join(" and "), row.unit)}`).join("; ")}.`));
   }
   const relaxation = list(record(optimise.relaxation).words);
   const said_below = optimise.status === "infeasible" && relaxation.length > 0;

@@ -35,7 +35,8 @@ function first_edge_contact(cases, design) {
 function edge_contact_words(found, cases) {
   if (found === null) return "contact does not reach a tip edge";
   const { load_case, summary } = found, { gear, share_of_torque: share } = summary.edge_contact;
-  const torque = `${fmt(load_case.torque)} N·m`, where = cases.length > 1 ? ` (${load_case.label})` : "";
+  const torque = `${fmt(load_case.torque)} N·m`, scene = load_case.label.split(", ").filter((part) => part !== torque).join(", ");
+  const where = cases.length > 1 && scene !== "" ? ` (${scene})` : "";
   const from = share < 0.005 ? `at any load up to ${torque}` : `at ${fmt(100 * share, 2)} % of ${torque}`;
   const carried = is_number(summary.tip_edge_share) ? ` and up to ${fmt(100 * summary.tip_edge_share, 2)} % of the force` : "";
   const reached = `contact reaches the tip edge of the ${gear} ${from}${where}`;

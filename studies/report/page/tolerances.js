@@ -15,7 +15,7 @@ function exceeded_over_draws(scatter) {
 
 /** "the 95 % quantile of peak-to-peak TE over drawn gears to at most 0.9 µm: 3.15 µm" */
 const drawn_limit_words = (scatter, { name, value, max, unit }) =>
-  `the ${scatter.statistic_in_words} of ${words(name)} over drawn gears to at most ${fmt(max)} ${pretty_unit(unit)}: ${fmt(value, 3)} ${pretty_unit(unit)}`;
+  `the ${scatter.statistic_in_words} of ${words(name)} over drawn gears to at most ${in_unit(fmt(max), pretty_unit(unit))}: ${in_unit(fmt(value, 3), pretty_unit(unit))}`;
 
 /** "95 % quantile of peak contact stress over drawn gears: 4550 → 1590 MPa (−65 %)"; without fresh draws beside the design that was searched without scatter. */
 function scatter_headline(optimise, scatter) {

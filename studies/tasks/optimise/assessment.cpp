@@ -36,16 +36,20 @@ Validation validate(const Study& study, const DesignProblem& problem, const Desi
   return validation;
 }
 
+/// What the optimum is of: the objective, of a list the last one by its name.
+std::string objective_of(const DesignTask& task) { return task.objective_bounds.empty() ? "objective" : plain_name(task.objective_name()); }
+
 std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, bool names_torque) {
   const DesignScene& of_task = task.scenes[static_cast<std::size_t>(scene.scene)];
   const std::string torque = names_torque ? fmt::format(", {:.5g} N·m,", of_task.torque / units::newton_metre) : "";
-  return fmt::format("The scene \"{}\"{} governs with weight {:.2f}.", of_task.name, torque, scene.weight);
+  const std::string of_list = task.objective_bounds.empty() ? "" : fmt::format(" the {}", objective_of(task));
+  return fmt::format("The scene \"{}\"{} governs{} with weight {:.2f}.", of_task.name, torque, of_list, scene.weight);
 }
 
 /// By how much moving a limit would reduce the objective, where that is more than the optimum is known to.
 std::string gain_in_words(double gain, const std::string& move, const Optimum& optimum, const DesignTask& task) {
-  if (!(std::abs(gain) > optimum.resolution)) return move + " would not reduce the objective.";
-  return fmt::format("{} would reduce the objective by {:.2g}{}.", move, -gain, behind_number(task.objective_unit()));
+  if (!(std::abs(gain) > optimum.resolution)) return fmt::format("{} would not reduce the {}.", move, objective_of(task));
+  return fmt::format("{} would reduce the {} by {:.2g}{}.", move, objective_of(task), -gain, behind_number(task.objective_unit()));
 }
 
 std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, const DesignTask& task) {
@@ -83,7 +87,7 @@ std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const 
 
 std::string objective_in_words(const Optimum::Objective& objective, const Optimum& optimum, const DesignTask& task) {
   const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(objective.bound)];
-  const std::string move = fmt::format("The objective before it, {}, is at the {:.4g}{} that it keeps: one per cent more",
+  const std::string move = fmt::format("The earlier objective, {}, is at its limit, {:.4g}{}: a limit one per cent higher",
                                        plain_name(bound.objective.name()), bound.limit, behind_number(bound.objective.unit()));
   return gain_in_words(objective.gain, move, optimum, task);
 }
@@ -161,8 +165,9 @@ std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task
     const DesignVariable& v = task.variables[i];
     amounts.push_back(fmt::format("{} {:.3g}{}", plain_name(v.path), usual.design->variables[i] * v.outside_factor(), behind_number(v.unit())));
   }
-  return words + fmt::format("The best design without it reaches {:.5g}{} ({:+.1f} %): {}.", usual.design->objective,
-                             behind_number(task.objective_unit()), 100.0 * usual.price, fmt::join(amounts, ", "));
+  const std::string price = std::isfinite(usual.price) ? fmt::format(" ({:+.1f} %)", 100.0 * usual.price) : "";
+  return words + fmt::format("The best design without it reaches {}{:.5g}{}{}: {}.", task.objective_bounds.empty() ? "" : objective_of(task) + " ",
+                             usual.design->objective, behind_number(task.objective_unit()), price, fmt::join(amounts, ", "));
 }
 
 std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const DesignTask& task) {

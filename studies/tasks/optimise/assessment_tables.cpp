@@ -53,13 +53,14 @@ std::vector<NamedText> assessment_tables(const Assessment& assessment) {
 
 std::string assessment_summary(const Assessment& assessment, const DesignTask& task, double optimum) {
   std::string out;
+  const std::string of_list = task.later_objectives.empty() ? "" : plain_name(task.objective_name()) + " ";  // it is the first that is compared
   const auto beside = [&](const std::string& what, double value) {
     if (!(optimum > 0.0)) {
-      out += fmt::format("{}: {:.5g}{}\n", what, value, behind_number(task.objective_unit()));
+      out += fmt::format("{}: {}{:.5g}{}\n", what, of_list, value, behind_number(task.objective_unit()));
       return;
     }
     const double times = value / optimum;
-    out += fmt::format("{}: {:.5g}{} ({})\n", what, value, behind_number(task.objective_unit()),
+    out += fmt::format("{}: {}{:.5g}{} ({})\n", what, of_list, value, behind_number(task.objective_unit()),
                        times < 10.0 ? fmt::format("{:+.1f} %", 100.0 * (times - 1.0)) : fmt::format("{:.3g} times the optimum", times));
   };
   if (const ComparedDesign* best = best_of(assessment.rules)) {

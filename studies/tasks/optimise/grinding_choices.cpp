@@ -108,10 +108,13 @@ std::string choice_in_words(const GrindingChoice& choice, const DesignTask& task
   };
   std::string words = choice.is_of_pair() ? fmt::format("{}, and {}, are not ground together", amount(choice.amounts[0]), amount(choice.amounts[1]))
                                           : fmt::format("{}, is below the smallest amount", amount(choice.amounts[0]));
+  // Of a list alternatives are judged by the last objective.
+  const Objective judged = task.later_objectives.empty() ? task.combined_objective() : task.later_objectives.back();
+  const std::string name = task.later_objectives.empty() ? "" : plain_name(judged.name()) + " ";
   for (std::size_t i = 0; i < choice.tried.size(); ++i) {
     const GrindingAlternative& tried = choice.tried[i];
     const std::string gives =
-        std::isnan(tried.objective) ? "cannot be analysed" : fmt::format("gives {:.5g}{}", tried.objective, behind_number(task.objective_unit()));
+        std::isnan(tried.objective) ? "cannot be analysed" : fmt::format("gives {}{:.5g}{}", name, tried.objective, behind_number(judged.unit()));
     const bool breaks = tried.constraint_violation > DesignLog::tolerance;
     words += fmt::format("{} {} {}{}{}", i == 0 ? ":" : ",", alternative_in_words(choice, tried), gives,
                          breaks ? " and does not keep the constraints" : "", i == choice.taken ? " (taken)" : "");

@@ -65,9 +65,18 @@ void check_edge_outputs(StudyReading& reading) {
   }
 }
 
+/// Whether the speed of the study or something of its spectrum is given, but refused already.
+bool has_refused_load(const StudyReading& reading) {
+  return std::ranges::any_of(reading.problems,
+                             [](const StudyProblem& problem) { return problem.key == "load.speed" || problem.key.starts_with("load.spectrum"); });
+}
+
 /// What damage, loss and film need must be given.
 void check_life_outputs(StudyReading& reading) {
   const Study& study = reading.builder.study;
+  const auto refuse = [&](const std::string& key, const ObjectiveTerm& term, const char* needs) {
+    reading.refuse_key(key, term.name + " is asked for and needs " + needs);
+  };
   check_sums(reading, "optimise.objective", study.optimise.objective);
   for (const Objective& objective : study.optimise.later_objectives) check_sums(reading, "optimise.objective", objective.terms);
   const std::shared_ptr<const LifeModel> life = life_model(study);
@@ -80,17 +89,18 @@ void check_life_outputs(StudyReading& reading) {
     const DesignOutput& row = design_output(term.output);
     if (row.is_least && !key.starts_with("optimise.constraints."))
       reading.refuse_key(key, term.name + " is better where it is large: allowed is { min = ... } in optimise.constraints");
-    if (row.over_spectrum && study.spectrum.empty()) reading.refuse_key(key, term.name + " needs load.spectrum");
+    if (row.over_spectrum && study.spectrum.empty()) refuse(key, term, "load.spectrum, which is not given");
     if (term.output == Output::ContactDamage && !has_curve(&FatigueStrength::contact)) {
-      reading.refuse_key(key, term.name + " needs material.strength or material.contact_endurance_limit");
+      refuse(key, term, "material.strength or material.contact_endurance_limit, neither of which is given");
     }
     if (term.output == Output::RootDamage && !has_curve(&FatigueStrength::root))
-      reading.refuse_key(key, term.name + " needs material.strength or material.root_endurance_limit");
+      refuse(key, term, "material.strength or material.root_endurance_limit, neither of which is given");
     if (!row.needs_oil) continue;
-    if (!study.life.has_lubricant) reading.refuse_key(key, term.name + " needs a table [lubricant]");
+    if (!study.life.has_lubricant) refuse(key, term, "a table [lubricant], which is not given");
+    if (has_refused_load(reading)) continue;
     const auto no_speed = [](const auto& of) { return std::isnan(of.speed); };
     if (study.spectrum.empty() ? std::ranges::any_of(study.scenes, no_speed) : std::ranges::any_of(study.spectrum, no_speed)) {
-      reading.refuse_key(key, term.name + " needs load.speed, or a speed in every bin of the spectrum");
+      refuse(key, term, "load.speed, or a speed in every bin of the spectrum, which is not given");
     }
   }
   const bool moves = std::ranges::any_of(study.spectrum, [](const SpectrumBin& bin) { return bin.mesh_misalignment != 0.0; });
@@ -110,8 +120,10 @@ void check_optimise(StudyReading& reading) {
   if (!study.optimise.constraints.empty() && !accepts_constraints(study.optimise.solver.name)) {
     reading.refuse_key("optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
   }
-  if (study.fidelity.compliance == ComplianceModel::Rigid) {
-    reading.refuse_key("fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
+  const bool is_elastic = study.fidelity.compliance != ComplianceModel::Rigid;
+  if (!is_elastic) {
+    const std::string what = minimises_root_stress(study) ? "root stress is asked for and needs" : "task \"optimise\" needs";
+    reading.refuse_key("fidelity.compliance", what + " an elastic compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
   const bool smooth = uses_gradients(study.optimise.solver.name) && accepts_constraints(study.optimise.solver.name);  // the epigraph is
   if (!study.optimise.pareto_objectives.empty() && !smooth) {
@@ -131,7 +143,7 @@ void check_optimise(StudyReading& reading) {
   if (reading.find("optimise.sigmas") != nullptr && !free_sigmas) {
     reading.refuse_key("optimise.sigmas", "has a meaning with optimise.over = \"mean+sigmas\" only");
   }
-  if (minimises_root_stress(study) && !wants_root_stress(study)) {
+  if (is_elastic && minimises_root_stress(study) && !wants_root_stress(study)) {
     reading.refuse_key("fidelity.effects", "root stress is asked for: allowed is \"auto\" or a list with \"root_stress\"");
   }
   check_life_outputs(reading);

@@ -246,12 +246,16 @@ Json optimise_json(const StudyResults& results) {
     json["rounded"] = {{"variables", json["after"]["variables"]},
                        {"objective", design.after.objective},
                        {"loss_percent", 100.0 * design.rounding_loss()},
-                       {"choices_loss_percent", 100.0 * design.choice_loss()}};
+                       {"choices_loss_percent", task.later_objectives.empty() ? 100.0 * design.choice_loss() : not_given}};
   }
   if (!design.stages.empty()) {
-    json["stages"] = list(design.stages, [](const LexicographicStage& stage) -> Json {
-      return {{"objective", stage.name}, {"least", stage.least}, {"limit", stage.limit}};
-    });
+    Json stages = Json::array();
+    for (std::size_t k = 0; k < design.stages.size(); ++k) {
+      const LexicographicStage& stage = design.stages[k];
+      const char* unit = k == 0 ? task.objective_unit() : task.later_objectives[k - 1].unit();
+      stages.push_back({{"objective", stage.name}, {"unit", unit}, {"least", stage.least}, {"limit", stage.limit}});
+    }
+    json["stages"] = std::move(stages);
   }
   add_starts(design, task, json);
   if (results.front) json["pareto"] = front_json(*results.front, task);

@@ -55,7 +55,38 @@ std::string pareto_csv(const ParetoFront& front, const DesignTask& task) {
 }
 
 std::string change(double before, double after) {
-  return before != 0.0 ? fmt::format("{:+.1f} %", 100.0 * (after / before - 1.0)) : std::string("-");
+  if (before == 0.0) return "-";
+  const double percent = 100.0 * (after / before - 1.0);
+  const bool is_nearly_all = percent <= -99.95 && after != 0.0;  // is not rounded to all of it
+  return is_nearly_all ? fmt::format("{:.2f} %", std::max(percent, -99.99)) : fmt::format("{:+.1f} %", percent);
+}
+
+/// "changes the objective by +1.8 %, from 377.2 to 384 MPa"; without per cent where that says nothing. @param note  behind the per cent
+std::string change_in_words(const std::string& objective, double from, double to, const std::string& unit, const std::string& note = "") {
+  const double increase = relative_increase(from, to);
+  if (std::isnan(increase) && from == to) return fmt::format("leaves the {} at {:.5g}{}", objective, to, unit);
+  const std::string by = std::isnan(increase) ? "" : fmt::format(" by {:+.1f} %{},", 100.0 * increase, note);
+  return fmt::format("changes the {}{} from {:.5g} to {:.5g}{}", objective, by, from, to, unit);
+}
+
+/// What choices and steps cost: of a list, each of its objectives.
+std::string loss_in_words(const DesignResult& design, const DesignTask& task) {
+  const char* what = design.choices.empty() ? "rounding to the steps" : has_steps(task) ? "this and rounding to the steps" : "this";
+  const double by_choices = design.choice_loss();
+  const bool is_told_apart = !design.choices.empty() && has_steps(task) && !std::isnan(by_choices);
+  const std::string choices = is_told_apart ? fmt::format(" ({:+.1f} % without the steps)", 100.0 * by_choices) : "";
+  const std::string unit = behind_number(task.objective_unit());
+  const double from = design.exact->objective, to = design.after.objective;
+  if (task.later_objectives.empty()) return fmt::format("{} {}\n", what, change_in_words("objective", from, to, unit, choices));
+  std::string out = fmt::format("{} {}\n", what, change_in_words(plain_name(task.objective_name()), from, to, unit));
+  for (std::size_t k = 0; k < task.later_objectives.size(); ++k) {
+    const Objective& later = task.later_objectives[k];
+    const bool is_last = k + 1 == task.later_objectives.size();  // alternatives of choices are judged by it
+    out += fmt::format("{} {}\n", what,
+                       change_in_words(plain_name(later.name()), design.exact->later_objectives[k], design.after.later_objectives[k],
+                                       behind_number(later.unit()), is_last ? choices : ""));
+  }
+  return out;
 }
 
 /// A line below a row of figures: how far they are from those of infinitely many points and positions.
@@ -90,6 +121,13 @@ std::string optimise_summary(const StudyResults& results) {
   out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective, design.after.objective,
                      change(design.before.objective, design.after.objective));
   out += error_row(width, results.before_errors.objective, results.after_errors.objective);
+  for (std::size_t k = 0; k < task.later_objectives.size(); ++k) {
+    const double before = design.before.later_objectives[k], after = design.after.later_objectives[k];
+    out += fmt::format("then {} [{}]\n", plain_name(task.later_objectives[k].name()), task.later_objectives[k].unit());
+    out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, before, after, change(before, after));
+    const bool has_error = k < results.before_errors.later_objectives.size() && k < results.after_errors.later_objectives.size();
+    if (has_error) out += error_row(width, results.before_errors.later_objectives[k], results.after_errors.later_objectives[k]);
+  }
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
     const OutputConstraint& bound = task.constraints[c];
@@ -106,13 +144,7 @@ std::string optimise_summary(const StudyResults& results) {
   out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
   for (const std::string& sentence : grinding_choices_in_words(design, task)) out += sentence + "\n";
-  if (design.exact) {
-    const char* what = design.choices.empty() ? "rounding to the steps" : has_steps(task) ? "this and rounding to the steps" : "this";
-    const std::string choices =
-        design.choices.empty() || !has_steps(task) ? "" : fmt::format(" ({:+.1f} % without the steps)", 100.0 * design.choice_loss());
-    out += fmt::format("{} changes the objective by {:+.1f} %{}, from {:.5g} to {:.5g}{}\n", what, 100.0 * design.rounding_loss(), choices,
-                       design.exact->objective, design.after.objective, behind_number(task.objective_unit()));
-  }
+  if (design.exact) out += loss_in_words(design, task);
   if (results.search_work) {
     const SearchWork& work = *results.search_work;
     const auto level = [&](const LevelWork& w) {

@@ -139,7 +139,10 @@ void check_sweep(StudyReading& reading) {
     return reading.refuse_key("scenes", "a sweep runs one working condition: vary its keys in sweep.parameters");
   }
   if (study.torques.size() > 1) {
-    return reading.refuse_key("load.torque", "a sweep takes one torque, or load.torque = { values = [...] } in sweep.parameters");
+    const bool has_spectrum = reading.find("load.spectrum") != nullptr;
+    return reading.refuse_key(has_spectrum ? "load.spectrum" : "load.torque",
+                              std::string("a sweep takes one torque") + (has_spectrum ? ": allowed is load.torque instead of a spectrum" : "") +
+                                  ", or load.torque = { values = [...] } in sweep.parameters");
   }
   for (const ExclusiveKeys& keys : exclusive_keys()) {
     if (is_swept(study.sweep, keys.first) && is_swept(study.sweep, keys.second)) {

@@ -1,6 +1,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/unloaded/tooth_contact.hpp"
@@ -114,6 +116,42 @@ TEST_CASE("End edges that cannot be are named with what they may be", "[core][ge
   CHECK(field_of(0.2, {.amount = 2.0}) == "wheel.edges.end_chamfer.amount");
   CHECK(field_of(0.0, {.amount = 10.0}) == "wheel.edges.end_chamfer.amount");
   CHECK(field_of(0.0, {.amount = 2.0, .angle = 80 * units::deg}) == "wheel.edges.end_chamfer.angle");
+}
+
+TEST_CASE("An edge that is too large is told the largest one, which is allowed", "[core][gear][edge]") {
+  using Kind = std::function<double&(GearData&)>;
+  const auto [field, length] = GENERATE(table<std::string, Kind>({
+      {"tip_rounding", [](GearData& gear) -> double& { return gear.tip_rounding; }},
+      {"tip_chamfer.amount", [](GearData& gear) -> double& { return gear.tip_chamfer.amount; }},
+      {"end_rounding", [](GearData& gear) -> double& { return gear.end_rounding; }},
+      {"end_chamfer.amount", [](GearData& gear) -> double& { return gear.end_chamfer.amount; }},
+  }));
+  const double helix = GENERATE(0.0, 20.0), edge = GENERATE(0.0, 0.1), shift = GENERATE(0.0, 0.4);
+  const double too_large = GENERATE(5.0, 50.0);
+  CAPTURE(field, helix, edge, shift, too_large);
+  PairData data = mesh_cases::pair_data(25, 50, helix, 3, 9);
+  data.pinion.profile_shift = shift;
+  data.pinion.tip_chamfer.radius = data.pinion.end_chamfer.radius = edge;
+  length(data.pinion) = too_large;
+  const auto problems = find_problems(data);
+  REQUIRE(problems.size() == 1);
+  CHECK(problems.front().field() == "pinion.edges." + field);
+  const std::string allowed = problems.front().allowed();
+  CAPTURE(allowed);
+  REQUIRE(allowed.rfind("0 .. ", 0) == 0);
+  const double largest = std::stod(allowed.substr(5));
+  REQUIRE(largest > 0.1);
+  length(data.pinion) = largest;
+  CHECK(find_problems(data).empty());
+  length(data.pinion) = largest + 2 * units::um;
+  CHECK_FALSE(find_problems(data).empty());
+}
+
+TEST_CASE("A chamfer beside a rounding is refused in plain words", "[core][gear][edge]") {
+  PairData data = rounded_ends(20.0, 0.2);
+  data.wheel.end_chamfer.amount = 1.0;
+  REQUIRE(find_problems(data).size() == 1);
+  CHECK(find_problems(data).front().allowed() == "0 beside an end_rounding: the chamfer's edge has a radius of its own");
 }
 
 TEST_CASE("An edge of which nothing is known has a twentieth of the module, less where the tooth is pointed", "[core][gear][edge]") {

@@ -13,6 +13,15 @@ browser=$(command -v chromium || command -v chromium-browser || command -v googl
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
+# What the probe in a page says, after a name.
+ask() {
+  local found
+  found=$("$browser" --headless --no-sandbox --disable-gpu --window-size=1250,1000 --virtual-time-budget=8000 --user-data-dir="$scratch/profile" \
+    --dump-dom "file://$scratch/page.html" 2>/dev/null | sed -n 's|.*<output id="probe">\([^<]*\)</output>.*|\1|p')
+  echo "$1: ${found:-the page ended before the probe}"
+  [[ $found == "all is well"* ]]
+}
+
 # Runs an example, coarser than it is, and has the probe look at its report; the words after the name say what must be found.
 look() {
   local study=$1
@@ -23,13 +32,11 @@ look() {
   sed -e 's|<head>|<head><script>window.complaints = []; addEventListener("error", (e) => complaints.push(e.message)); console.error = console.warn = (...m) => complaints.push(m.join(" "));</script>|' \
     "$scratch/$study/report.html" >"$scratch/page.html"
   { echo "<script>const expected = \"$*\".split(\" \");"; cat "$here/report_probe.js"; echo "</script>"; } >>"$scratch/page.html"
-  local found
-  found=$("$browser" --headless --no-sandbox --disable-gpu --window-size=1250,1000 --virtual-time-budget=8000 --user-data-dir="$scratch/profile" \
-    --dump-dom "file://$scratch/page.html" 2>/dev/null | sed -n 's|.*<output id="probe">\([^<]*\)</output>.*|\1|p')
-  echo "$study: ${found:-the page ended before the probe}"
-  [[ $found == "all is well"* ]]
+  ask "$study"
 }
 
+{ echo '<!DOCTYPE html><meta charset="utf-8"><body><script>'; cat "$here/../../../studies/report/page/dom.js" "$here/number_probe.js"; echo "</script>"; } >"$scratch/page.html"
+ask numbers
 look helical-18-54 flank-load modifications scenes governing comparison convergence
 look parabola-18-54 flank-load search
 look spectrum-19-62 life flank-load scenes

@@ -97,6 +97,48 @@ TEST_CASE("What is wrong with a spectrum is told with place, key, value and what
   CHECK(with("[{ torque = 100, cycles = 3 }]").key.empty());
 }
 
+TEST_CASE("A value of a spectrum that is given but wrong is not called missing as well", "[studies][life]") {
+  const auto problems = [](const std::string& text) {
+    try {
+      life_study(life_pair + text);
+    } catch (const StudyErrors& errors) {
+      return errors.problems();
+    }
+    return std::vector<StudyProblem>{};
+  };
+  const std::string bin = GENERATE("{ torque = 100, speed = 1000, hours = -5 }", "{ torque = 100, speed = 1000, hours = \"2 days\" }",
+                                   "{ torque = 100, speed = 1000, cycles = -5 }", "{ torque = 100, speed = 0, hours = 3 }");
+  CAPTURE(bin);
+  const std::vector<StudyProblem> found = problems("[load]\nspectrum = [" + bin + ", { torque = 50, cycles = 3 }]\n");
+  REQUIRE(found.size() == 1);
+  CHECK(found.front().value != "(not given)");
+  const std::vector<StudyProblem> of_both = problems("[load]\nspeed = -1\nspectrum = [{ torque = 100, hours = 3 }]\n");
+  REQUIRE(of_both.size() == 1);
+  CHECK(of_both.front().key == "load.speed");
+}
+
+TEST_CASE("Damage that is asked for without a spectrum is told with both keys", "[studies][life]") {
+  try {
+    life_study("task = \"optimise\"\n" + life_pair + life_strength + R"(
+[load]
+torque = 150
+[optimise]
+objective = "peak_contact_stress"
+[optimise.variables]
+"pinion.modification.lead_crowning" = [0, 10]
+[optimise.constraints]
+contact_damage = { max = 1 }
+)");
+    FAIL("nothing was refused");
+  } catch (const StudyErrors& errors) {
+    REQUIRE(errors.problems().size() == 1);
+    const StudyProblem& problem = errors.problems().front();
+    CHECK(problem.key == "optimise.constraints.contact_damage");
+    CHECK(problem.value == "{ max = 1 }");
+    CHECK(problem.allowed == "contact_damage is asked for and needs load.spectrum, which is not given");
+  }
+}
+
 TEST_CASE("What is wrong with strength or lubricant is told by its key", "[studies][life]") {
   const auto with = [](const std::string& rest) { return life_problem(life_pair + two_bins + rest).key; };
   CHECK(with("[material]\ncontact_endurance_limit = 0\n") == "material.contact_endurance_limit");

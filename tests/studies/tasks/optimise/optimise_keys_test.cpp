@@ -122,6 +122,18 @@ TEST_CASE("Impossible values of [optimise] are refused at their position", "[stu
   CHECK_THAT(problem.allowed, Catch::Contains(row.allowed));
 }
 
+TEST_CASE("Root stress with rigid teeth is refused in one line", "[studies][optimise-keys]") {
+  try {
+    read_optimisation("peak_root_stress = { max = 300 }\n", {{"fidelity.compliance", "rigid"}});
+    FAIL("nothing was refused");
+  } catch (const StudyErrors& errors) {
+    REQUIRE(errors.problems().size() == 1);
+    const StudyProblem& problem = errors.problems().front();
+    CHECK(problem.key == "fidelity.compliance");
+    CHECK_THAT(problem.allowed, Catch::Contains("root stress is asked for and needs an elastic compliance: allowed is \"thin_slice\""));
+  }
+}
+
 TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimise-keys]") {
   const Aggregation sigmas = read_optimisation("", {{"optimise.over", "mean+sigmas"}, {"optimise.sigmas", "3"}}).optimise.over;
   CHECK(sigmas == Aggregate::MeanPlusSigmas);
@@ -150,6 +162,37 @@ TEST_CASE("Results have the rounded design, the exact optimum and its optimality
   CHECK(optimise["stages"].size() == 2);
   CHECK(optimise["exact"]["objective"].get<double>() <= optimise["stages"][0]["limit"].get<double>() * (1.0 + 1e-6));
   CHECK(optimise["optimality"]["residual"].get<double>() < 1e-3);
+}
+
+TEST_CASE("The summary of a list has every objective before and after, and says which one a sentence is about", "[studies][optimise-keys]") {
+  StudyResults results =
+      run_study(read_optimisation("", {{"optimise.step", "1"}, {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}}));
+  const std::string summary = summary_table(results);
+  CAPTURE(summary);
+  CHECK_THAT(summary, Catch::Contains("\npeak contact stress [MPa]\n") && Catch::Contains("\nthen peak-to-peak TE [um]\n"));
+  CHECK_THAT(summary, Catch::Contains(" governs the peak-to-peak TE with weight"));
+  CHECK_THAT(summary, Catch::Contains("changes the peak contact stress by") && Catch::Contains("changes the peak-to-peak TE by"));
+  CHECK_THAT(summary, Catch::Contains("The earlier objective, peak contact stress, is at its limit"));
+  CHECK_THAT(summary, !Catch::Contains("the objective by"));
+  const json stages = json::parse(results_json(results))["optimise"]["stages"];
+  CHECK(stages[0]["unit"] == "MPa");
+  CHECK(stages[1]["unit"] == "um");
+}
+
+TEST_CASE("Where the exact objective is 0 or nearly so, both values are said and no per cent", "[studies][optimise-keys]") {
+  StudyResults results = run_study(read_optimisation("", {{"optimise.step", "1"}}));
+  REQUIRE(results.design->exact);
+  const auto said = [&](double exact, double ground) {
+    results.design->exact->objective = exact;
+    results.design->after.objective = ground;
+    const json rounded = json::parse(results_json(results))["optimise"]["rounded"];
+    CHECK(rounded["loss_percent"].is_null());
+    CHECK(rounded["objective"] == ground);
+    return summary_table(results);
+  };
+  CHECK_THAT(said(0.0, 0.0), Catch::Contains("rounding to the steps leaves the objective at 0 MPa\n"));
+  CHECK_THAT(said(0.0, 3.0), Catch::Contains("rounding to the steps changes the objective from 0 to 3 MPa\n"));
+  CHECK_THAT(said(1e-10, 5e-4), Catch::Contains("rounding to the steps changes the objective from 1e-10 to 0.0005 MPa\n"));
 }
 
 TEST_CASE("A front is in the results and has its own table", "[studies][optimise-keys]") {

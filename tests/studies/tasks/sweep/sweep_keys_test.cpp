@@ -117,6 +117,8 @@ TEST_CASE("Parameters that a sweep cannot vary are refused by name", "[studies][
 TEST_CASE("A sweep without parameters, or with a list of torques, is refused", "[studies][sweep]") {
   CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml", {{"sweep.parameters", "{}"}}), Contains("at least one parameter"));
   CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml", {{"load.torque", "[1, 2]"}}), Contains("a sweep takes one torque"));
+  CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml", {{"load", "{ spectrum = [{ torque = 9, cycles = 1 }, { torque = 8, cycles = 1 }] }"}}),
+                    Contains("load.spectrum = ") && Contains("allowed is load.torque instead of a spectrum") && !Contains("(not given)"));
 }
 
 }  // namespace
