@@ -345,6 +345,10 @@ void StudyRun::find_edge_contact() {
     const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
     if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
     if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(model, loaded.condition, loaded.torque);
+    // Between the positions an edge may touch earlier, or there alone.
+    if (!loaded.resolved.extreme_mesh) return;
+    const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque);
+    if (between && (!loaded.edge_contact || between->torque < loaded.edge_contact->torque)) loaded.edge_contact = between;
   });
   if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
   results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});

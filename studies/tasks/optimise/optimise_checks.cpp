@@ -53,10 +53,15 @@ void check_sums(StudyReading& reading, const char* key, const std::vector<Object
   }
 }
 
-/// A sharp edge carries load, but its pressure has no bound and is left out of the stress.
+/// A sharp edge carries load, but its pressure has no bound and is left out of the stress; without the effect no edge has a stress.
 void check_edge_outputs(StudyReading& reading) {
   const PairData& pair = reading.builder.study.pair;
+  const Fidelity& fidelity = reading.builder.study.fidelity;
+  const bool has_effect = fidelity.automatic_effects || std::ranges::find(fidelity.effects, "edge_contact") != fidelity.effects.end();
   for (const auto& [key, term] : all_terms(reading.builder.study.optimise)) {
+    if (term.output != Output::EdgeStress && term.output != Output::TipEdgeShare) continue;
+    if (!has_effect)
+      return reading.refuse_key(key, term.name + " needs the effect edge_contact: fidelity.effects = \"auto\" or a list with \"edge_contact\"");
     if (term.output != Output::EdgeStress) continue;
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       if (pair[m].tip_rounding == 0.0)

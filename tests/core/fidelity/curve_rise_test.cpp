@@ -29,7 +29,7 @@ TEST_CASE("A sample that is alone on its piece promises a rise to either side, o
   const double rise = 0.5 * (curve[4].y - curve[3].y);
   for (const std::size_t left : {3U, 4U}) {
     const CurveRise beside = rise_between(curve, left);
-    CHECK(beside.x == Approx(left + 0.5).margin(kRoundOff));
+    CHECK(beside.x == Approx(static_cast<double>(left) + 0.5).margin(kRoundOff));
     CHECK(beside.height >= curve[4].y + 0.9 * rise);
   }
   CHECK(rise_between(curve, 4).height == Approx(curve[4].y + rise).margin(kRoundOff));

@@ -65,16 +65,18 @@ TEST_CASE("An allowance leaves contact path and unloaded transmission error and 
 }
 
 TEST_CASE("A pair with allowances behaves as the same teeth stated by their generating profile shift", "[studies][thickness]") {
-  const Json thin = results_of(small::analysis(), thinner);
+  Json thin = results_of(small::analysis(), thinner);
   const auto digits = [](double value) { return Json(value).dump(); };
   std::vector<Override> restated{{"pair.centre_distance", digits(thin["geometry"]["centre_distance_mm"].get<double>())}};
   for (const std::string gear : {"pinion", "wheel"}) {
     restated.push_back({gear + ".profile_shift", digits(thin["geometry"][gear]["generating_profile_shift"].get<double>())});
     restated.push_back({gear + ".tip_diameter", digits(thin["geometry"][gear]["tip_diameter_mm"].get<double>())});
   }
-  const Json same = results_of(small::analysis(), restated);
+  Json same = results_of(small::analysis(), restated);
   // Round-off of the centre distance by its pressure angle's cosine, through the Newton steps of the load distribution.
   for (std::size_t i = 0; i < thin["loaded"].size(); ++i) {
+    // How many positions a search takes hangs on round-off where a point leaves a tip edge.
+    for (Json* of : {&thin, &same}) (*of)["loaded"][i]["summary"]["peaks"].erase("positions");
     CHECK(largest_difference(thin["loaded"][i]["summary"], same["loaded"][i]["summary"]) < 1e-7);
   }
   CHECK(std::abs(thin["geometry"]["backlash_um"].get<double>() - same["geometry"]["backlash_um"].get<double>()) < 1e-9);

@@ -82,6 +82,17 @@ TEST_CASE("A range beyond the largest amount is refused, and a limit on the stre
   CHECK_NOTHROW(read(limit, task));
 }
 
+TEST_CASE("An output of tip edges needs the effect that has it", "[studies][optimise][edge][errors]") {
+  std::vector<Override> task{{"task", "\"optimise\""}, {"load.torque", "100"}, {"optimise.variables.pinion.modification.lead_crowning", "[0, 10]"}};
+  for (const char* output : {"edge_stress", "tip_edge_share"}) {
+    const std::string limit = std::string("[optimise.constraints]\n\"") + output + "\" = { max = 0.5 }\n";
+    CHECK_NOTHROW(read(limit, task));
+    std::vector<Override> without = task;
+    without.push_back({"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"extended_contact_region\"]"});
+    CHECK_THAT(problem_of(limit, without).allowed, Contains("needs the effect edge_contact"));
+  }
+}
+
 TEST_CASE("Limits of the grinding become named constraints", "[studies][grinding]") {
   const Study study = read(R"(
 [pinion.modification]
