@@ -60,7 +60,7 @@ std::vector<ModificationConstraint> usual_sign_limits(const DesignTask& task) {
       const ParameterDescription* slope = varied(task, member, border.slope);
       const bool has_other = std::ranges::any_of(border.lowered_by, [&](std::string_view key) { return varied(task, member, key) != nullptr; });
       if (slope == nullptr || !has_other) continue;
-      ModificationConstraint limit{"a " + name_in_words(member, *slope) + " of more than twice the crowning and relief that it stands out from",
+      ModificationConstraint limit{"a " + name_in_words(member, *slope) + " of more than twice the crowning and relief at the border that it raises",
                                    {{member, slope->parameter, 0.5 * border.sense}}};
       for (const std::string_view key : border.lowered_by) {
         const ParameterDescription* parameter = varied(task, member, key);

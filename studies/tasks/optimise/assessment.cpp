@@ -163,7 +163,9 @@ std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task
   std::vector<std::string> amounts;
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    amounts.push_back(fmt::format("{} {:.3g}{}", plain_name(v.path), usual.design->variables[i] * v.outside_factor(), behind_number(v.unit())));
+    constexpr double nothing = 1e-6;  // in its outside unit: round-off of a bound at 0
+    const double amount = usual.design->variables[i] * v.outside_factor();
+    amounts.push_back(fmt::format("{} {:.3g}{}", plain_name(v.path), std::abs(amount) < nothing ? 0.0 : amount, behind_number(v.unit())));
   }
   const std::string price = std::isfinite(usual.price) ? fmt::format(" ({:+.1f} %)", 100.0 * usual.price) : "";
   return words + fmt::format("The best design without it reaches {}{:.5g}{}{}: {}.", task.objective_bounds.empty() ? "" : objective_of(task) + " ",
