@@ -51,8 +51,8 @@ inline double rise_of_lone(const CurveSample& before_3, const CurveSample& befor
 /// meet, by the last secant or by the slope extrapolated from the last two, whichever is steeper, because curves grow steeper towards a kink. On a smooth
 /// top the parabola through three neighbours is taken.
 ///
-/// A sample that lies above what both of its sides promise is the only one of its piece, such as that of a tip edge which carries over a thirtieth of a pitch.
-/// How the piece goes on is then not known: it may rise as far as half way to the next sample, by the secant from the other side.
+/// A sample that lies above what both of its sides promise is the only one on its piece of the curve, for example where a tip edge carries for a thirtieth of a
+/// pitch. How the piece goes on is then not known. The curve is taken to rise half way to the next sample, along the secant from the other side.
 /// @param curve  by rising x
 /// @param left   the interval's first sample; three more lie beyond either end
 inline CurveRise rise_between(std::span<const CurveSample> curve, std::size_t left) {

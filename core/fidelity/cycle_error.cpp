@@ -81,7 +81,7 @@ double edge_stress_of(const LoadedPosition& position) { return position.edge_str
 double edge_share_of(const LoadedPosition& position) { return position.tip_edge_share; }
 double root_of(const LoadedPosition& position) { return position.root_stress.size() > 0 ? position.root_stress.maxCoeff() : not_given; }
 
-/// Of the mean deflection, as far as of the stiffness over it.
+/// Error of the mean stiffness from that of the mean deflection: both are the same share of their values.
 double stiffness_error(double approach_error, const LoadedCycle& cycle, const CycleSummary& summary) {
   return approach_error / mean_of(curve(cycle, approach_of)) * summary.mean_stiffness;
 }

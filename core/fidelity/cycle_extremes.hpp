@@ -24,10 +24,10 @@ struct CycleExtremes {
   int looked_at{0};                ///< positions solved
 };
 
-/// Phases before A and after E at which a tip edge may carry unseen between the positions of a cycle. Where a whole line passes the edge in less than the spacing of the
-/// positions, slope * b < spacing, as on spur gears, an edge may carry for less than that, a little outside of A and E: four phases to either side are looked
-/// at, a third of the spacing apart. None for longer passages, which several positions see, without edges that carry, and where the line that lies next to
-/// the edge on the flank carries nothing.
+/// Phases before A and after E at which a tip edge may carry load between two positions of a cycle. On spur gears a whole line passes the edge in less than the
+/// spacing of the positions (slope * b < spacing), and the edge may carry for less than that, a little outside A and E. Four phases are returned for each of the
+/// two, a third of the spacing apart. There are none where the passage takes longer, because several positions see it, where no edge has a contact law, and where
+/// the line on the flank next to the edge carries no load.
 /// @param cycle  of the model, at equally spaced phases
 std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle& cycle);
 

@@ -38,8 +38,10 @@ bool can_be_coarser(const DesignTask& task);
 /// @throws InvalidInput as optimise_design()
 TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOptions& options);
 
-/// Of a design and the optima that a search found beside it, judged by a problem of another resolution: the one that exceeds the constraints least, of several the one of the
-/// lowest objective, and behind it the one of the lowest objective of all where that is another. A search from there may mend what this one exceeds.
+/// Designs from which a search at another resolution goes on, chosen from a design and the optima found beside it. First comes the design that exceeds the constraints
+/// least; among equals, the one with the lowest objective. The design with the lowest objective of all follows where it is another: a search from there may
+/// mend what it exceeds.
+/// @param problem  of that resolution; it judges the designs
 /// @param x_found  of the design, scaled
 std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignResult& found, const Eigen::VectorXd& x_found);
 

@@ -172,8 +172,8 @@ class OptimiseRun {
     return shown;
   }
 
-  /// Whether the positions see too little of a design: the objective, or of a constraint that is exceeded the value, rises between them by more than the accuracy that an
-  /// analysis chooses its positions for. Where no design keeps the constraints, the excess takes the objective's place.
+  /// Whether the positions see too little of a design. Between them the objective, or the value of a constraint that is exceeded, rises by more than the accuracy for
+  /// which an analysis chooses its positions. Where no design keeps the constraints, the excess takes the objective's place.
   bool rises_between_positions(const DesignReport& at_positions, const DesignReport& shown, bool infeasible) const {
     constexpr double accuracy = AutomaticResolution{}.accuracy;
     if (infeasible) return 1.0 + excess_of(shown) > (1.0 + accuracy) * (1.0 + excess_of(at_positions));
@@ -207,8 +207,8 @@ class OptimiseRun {
     }
   }
 
-  /// A search that got stuck at a design that is seldom ground may be led past it by the limits that flanks have as a rule: where the best design within them is
-  /// better, the search goes on from there. A list of objectives has an optimum of each that the next one keeps, so that this is left out for it.
+  /// A search may get stuck at a design that is seldom ground. Where the best design within the limits that flanks have as a rule is better, the search goes on
+  /// from there. A list of objectives is left out, because each of its objectives has a limit from the ones before.
   void take_better_usual_design(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
     const DesignReport& best = found.design.after;
     const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
@@ -231,8 +231,8 @@ class OptimiseRun {
   static constexpr double worth_going_on = 1e-3;
 
   /// Extremes between the positions may exceed a constraint that is kept at the positions. It is then asked for at the positions with as much
-  /// to spare, and the search goes on from there; `problem` has these limits afterwards. A limit to which nothing would be left stays as it is. The design is kept that exceeds the
-  /// constraints least as it is shown. Nothing to do where no design keeps the constraints at all.
+  /// to spare, and the search goes on from there; `problem` has these limits afterwards. A limit that would fall to 0 stays as it is. Of
+  /// all designs met, the one is kept that exceeds the constraints least as it is shown. Nothing to do where no design keeps the constraints at all.
   void keep_constraints_between_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
     constexpr int most_turns = 3;
     struct Turn {

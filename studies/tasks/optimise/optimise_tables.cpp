@@ -89,7 +89,7 @@ std::string loss_in_words(const DesignResult& design, const DesignTask& task) {
   return out;
 }
 
-/// What a loss is not to be read as: the exact design exceeds a constraint between the positions, and rounding found one that keeps it.
+/// A loss is no cost of rounding where the exact design exceeds a constraint between the positions. By how much it does; empty where it does not.
 std::string excess_of_exact_in_words(const DesignResult& design, const DesignTask& task) {
   double excess = 0.0;
   for (std::size_t c = 0; c < task.constraints.size(); ++c) excess = std::max(excess, task.constraints[c].excess(design.exact->constraint_values[c]));
