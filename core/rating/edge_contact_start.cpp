@@ -1,6 +1,7 @@
 #include "core/rating/edge_contact_start.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -96,6 +97,22 @@ std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const
       }
     }
     start = {without == 0.0 ? 0.0 : torque, found->gear, one.positions[0].phase};
+  }
+  return start;
+}
+
+EdgeContactStart edge_contact_start_near(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, EdgeContactStart start,
+                                         double spacing) {
+  constexpr int turns = 2, parts = 4;
+  for (int turn = 0; turn < turns; ++turn, spacing /= parts) {
+    std::vector<double> phases;
+    for (int k = 1 - parts; k < parts; ++k) {
+      const double phase = start.phase + spacing * k / parts;
+      if (k != 0) phases.push_back(phase - std::floor(phase));
+    }
+    std::ranges::sort(phases);
+    const auto beside = edge_contact_start(mesh_at(phases), condition, pinion_torque);
+    if (beside && beside->torque < start.torque) start = *beside;
   }
   return start;
 }

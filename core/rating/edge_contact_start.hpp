@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/load/cycle/mesh_cycle.hpp"
+#include "core/rating/contact_peaks.hpp"
 
 namespace flankwright {
 
@@ -23,5 +23,11 @@ struct EdgeContactStart {
 /// @param pinion_torque  [N mm], > 0
 /// @returns nothing where contact reaches no edge at the given torque, or its loads were not found
 std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque);
+
+/// The same between mesh positions, where an edge touches first as a rule: a start found at one of them is sought on at phases beside it, first three quarters of the way
+/// to both neighbours and then as much closer.
+/// @param spacing  of the mesh positions [base pitches]
+EdgeContactStart edge_contact_start_near(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, EdgeContactStart start,
+                                         double spacing);
 
 }  // namespace flankwright

@@ -65,7 +65,8 @@ RootFactors root_factors(const GearPair& pair, Member member) {
 
 double IsoStressNumbers::contact_stress(Member member, double K) const { return single_pair[member] * contact * std::sqrt(K); }
 
-IsoStressNumbers iso_stress_numbers(const GearPair& pair, const PerGear<Material>& material, double pinion_torque, double face_width) {
+IsoStressNumbers iso_stress_numbers(const GearPair& pair, const PerGear<Material>& material, double pinion_torque, double face_width,
+                                    const PerGear<double>& rim_thickness) {
   IsoStressNumbers numbers;
   const double alpha_t = pair.transverse_pressure_angle, alpha_wt = pair.working_transverse_pressure_angle, u = pair.gear_ratio();
   const double d_1 = 2.0 * pair.pinion.reference_radius, F_t = 2.0 * pinion_torque / d_1;
@@ -81,9 +82,15 @@ IsoStressNumbers iso_stress_numbers(const GearPair& pair, const PerGear<Material
     const RootFactors root = root_factors(pair, m);
     numbers.Y_F[m] = root.Y_F;
     numbers.Y_S[m] = root.Y_S;
-    numbers.root[m] = F_t / (face_width * pair.data.normal_module) * root.Y_F * root.Y_S * numbers.Y_beta;
+    numbers.Y_B[m] = rim_thickness_factor(pair[m], rim_thickness[m]);
+    numbers.root[m] = F_t / (face_width * pair.data.normal_module) * root.Y_F * root.Y_S * numbers.Y_beta * numbers.Y_B[m];
   }
   return numbers;
+}
+
+double rim_thickness_factor(const Gear& gear, double rim_thickness) {
+  const double s_R = rim_thickness, h_t = gear.tip_radius - gear.root_radius;
+  return s_R < 1.2 * h_t ? std::max(1.0, 1.6 * std::log(2.242 * h_t / s_R)) : 1.0;
 }
 
 double root_face_load_factor(const GearPair& pair, double face_width, double K_Hbeta) {

@@ -13,6 +13,7 @@ struct IsoStressNumbers {
   // Root [ISO 6336-3:2006]
   PerGear<double> Y_F{not_given, not_given}, Y_S{not_given, not_given};
   double Y_beta{not_given};
+  PerGear<double> Y_B{1.0, 1.0};               ///< rim thickness factor, see rim_thickness_factor() [-]
   PerGear<double> root{not_given, not_given};  ///< sigma_F0 [MPa]
 
   /// sigma_H of a gear with K = K_A K_v K_Hbeta K_Halpha [MPa].
@@ -22,11 +23,18 @@ struct IsoStressNumbers {
 };
 
 /// sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t/(d_1 b) (u+1)/u),  Z_beta = 1/sqrt(cos beta)
-/// sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta, load at the outer point of single pair contact (method B), with the fillet of the basic rack at the 30 deg tangent; rim thickness
-/// factor Y_B and deep tooth factor Y_DT are 1. F_t acts at the reference circle.
+/// sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta Y_B, load at the outer point of single pair contact (method B), with the fillet of the basic rack at the 30 deg tangent. The deep
+/// tooth factor Y_DT is 1, which is on the safe side. F_t acts at the reference circle.
 /// @param pinion_torque  [N mm], > 0
 /// @param face_width     common [mm]
-IsoStressNumbers iso_stress_numbers(const GearPair& pair, const PerGear<Material>& material, double pinion_torque, double face_width);
+/// @param rim_thickness  of gears with a rim, from the root circle to the rim's underside [mm], > 0; NaN: a solid body
+IsoStressNumbers iso_stress_numbers(const GearPair& pair, const PerGear<Material>& material, double pinion_torque, double face_width,
+                                    const PerGear<double>& rim_thickness = {not_given, not_given});
+
+/// Y_B of an external gear: with s_R/h_t, the rim's thickness over the tooth depth, 1 from 1.2 on and 1.6 ln(2.242 h_t/s_R) below it [ISO 6336-3:2006, rim thickness
+/// factor] [-]. The standard advises against rims below 0.5 and has no formula there; this one goes on.
+/// @param rim_thickness  s_R [mm], > 0; NaN: a solid body, which has 1
+double rim_thickness_factor(const Gear& gear, double rim_thickness);
 
 /// K_Fbeta = K_Hbeta^N_F, N_F = 1/(1 + h/b + (h/b)^2) with the tooth depth h and h/b at most 1/3 [ISO 6336-1:2006, 7.8] [-].
 double root_face_load_factor(const GearPair& pair, double face_width, double K_Hbeta);

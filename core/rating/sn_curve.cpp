@@ -58,6 +58,8 @@ double SnCurve::stress_for(double cycles) const {
   return std::min(static_limit, limit * std::pow(knee / cycles, 1.0 / (cycles <= knee ? exponent : exponent_beyond)));
 }
 
+double SnCurve::stress_borne(double cycles) const { return std::isnan(cycles) ? limit : stress_for(cycles); }
+
 SnCurve::Damage SnCurve::damage(double stress) const {
   if (!(stress > 0.0)) return {};
   const double p = stress >= limit ? exponent : exponent_beyond;

@@ -26,6 +26,8 @@ struct SnCurve {
   double cycles_to_failure(double stress) const;
   /// The stress that is borne for N cycles, limit * life factor, at most the static limit [MPa].
   double stress_for(double cycles) const;
+  /// The same, and the limit itself where the cycles are not known (NaN): what is borne for ever [MPa].
+  double stress_borne(double cycles) const;
 
   struct Damage {
     double value{0.0};  ///< 1/N [-]

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "core/fidelity/cycle_quantities.hpp"
-#include "optimize/design/life_outputs.hpp"
+#include "optimize/design/utilisation_outputs.hpp"
 
 namespace flankwright {
 
@@ -151,6 +151,7 @@ constexpr std::array rows{
     DesignOutput{.output = Output::PeakRootStress,
                  .name = "peak_root_stress",
                  .unit = "MPa",
+                 .of_roots = true,
                  .at_points = fillet_stresses,
                  .point_derivative = fillet_stress_slope},
     DesignOutput{.output = Output::EffectiveContactRatio, .name = "effective_contact_ratio", .unit = "1", .smooth = effective_contact_ratio},
@@ -175,7 +176,8 @@ constexpr std::array rows{
                  .candidates = root_damages,
                  .candidate = root_damage_of,
                  .growth = damage_growth,
-                 .over_spectrum = true},
+                 .over_spectrum = true,
+                 .of_roots = true},
     DesignOutput{.output = Output::LossFactor, .name = "loss_factor", .unit = "1", .candidates = loss_factors, .candidate = loss_factor_of},
     DesignOutput{.output = Output::SpecificFilmThickness,
                  .name = "specific_film_thickness",
@@ -195,6 +197,31 @@ constexpr std::array rows{
                  .unit = "degC",
                  .candidates = contact_temperatures,
                  .candidate = contact_temperature_of,
+                 .needs_oil = true},
+    DesignOutput{.output = Output::ContactUtilisation,
+                 .name = "contact_utilisation",
+                 .unit = "1",
+                 .rises_with = Output::PeakContactStress,
+                 .candidates = contact_utilisations,
+                 .candidate = contact_utilisation_of},
+    DesignOutput{.output = Output::RootUtilisation,
+                 .name = "root_utilisation",
+                 .unit = "1",
+                 .rises_with = Output::PeakRootStress,
+                 .candidates = root_utilisations,
+                 .candidate = root_utilisation_of,
+                 .of_roots = true},
+    DesignOutput{.output = Output::MicropittingUtilisation,
+                 .name = "micropitting_utilisation",
+                 .unit = "1",
+                 .candidates = micropitting_utilisations,
+                 .candidate = micropitting_utilisation_of,
+                 .needs_oil = true},
+    DesignOutput{.output = Output::ScuffingUtilisation,
+                 .name = "scuffing_utilisation",
+                 .unit = "1",
+                 .candidates = scuffing_utilisations,
+                 .candidate = scuffing_utilisation_of,
                  .needs_oil = true},
 };
 

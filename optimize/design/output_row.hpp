@@ -32,6 +32,10 @@ enum class Output {
   SpecificFilmThickness,  ///< least local_film() ratio lambda_GF of the points under load [-]
   FlashTemperature,       ///< largest local_temperature() theta_fl [K]
   ContactTemperature,     ///< largest local_temperature() theta_B [deg C]
+  ContactUtilisation,     ///< reciprocals of safeties, see utilisation_outputs.hpp [-]
+  RootUtilisation,        ///< needs DesignTask::root_stress
+  MicropittingUtilisation,
+  ScuffingUtilisation,
 };
 
 /// One output with its weight in an objective.
@@ -98,12 +102,15 @@ struct DesignOutput {
   /// All smooth functions of a load case with their values, and one of them with its gradient: an output that needs more than the cycle.
   using Candidates = std::vector<std::pair<PeakCandidate, double>> (*)(const ObjectiveTerm&, const LoadedScene&);
   using Candidate = SmoothValue (*)(const ObjectiveTerm&, const PeakCandidate&, const LoadedScene&);
+  /// The output whose relative rise between the positions, and whose relative error, it has as well.
+  std::optional<Output> rises_with{};
   Candidates candidates{nullptr};
   Candidate candidate{nullptr};
   /// The power of a stress or load that it grows with, in rough terms, >= 1: searches see the root, since a power spans many decades.
   double growth{1.0};
   bool over_spectrum{false};  ///< a sum over all load cases of the spectrum, the same in each of them
   bool needs_oil{false};      ///< a lubricant and a speed
+  bool of_roots{false};       ///< needs DesignTask::root_stress
   bool is_least{false};       ///< the least of the smooth functions instead of the largest; can be bounded, not minimised
   AtPoints at_points{nullptr};
   PointDerivative point_derivative{nullptr};

@@ -82,6 +82,12 @@ double output_value(const ObjectiveTerm& term, const LoadedScene& scene) {
 }
 
 ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene, const ResolvedCycle& resolved) {
+  if (const std::optional<Output>& other = design_output(term.output).rises_with) {
+    const ObjectiveTerm peak{.output = *other, .name = {}};
+    const double at_positions = output_value(peak, scene), value = output_value(term, scene);
+    const ResolvedValue resolved_peak = resolved_value(peak, scene, resolved);
+    return {value * resolved_peak.value / at_positions, value * resolved_peak.error / at_positions};
+  }
   const CycleEntry entry = find_cycle_entry(term.own_name());
   ResolvedValue found;
   if (entry.quantity != nullptr) {

@@ -22,8 +22,7 @@ std::vector<ObjectiveTerm> terms_of(const DesignTask& task) {
 
 bool asks_for_root_stress(const DesignTask& task) {
   const std::vector<ObjectiveTerm> terms = terms_of(task);
-  return std::any_of(terms.begin(), terms.end(),
-                     [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress || t.output == Output::RootDamage; });
+  return std::ranges::any_of(terms, [](const ObjectiveTerm& t) { return design_output(t.output).of_roots; });
 }
 
 namespace {

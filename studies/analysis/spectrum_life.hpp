@@ -3,15 +3,10 @@
 #include <functional>
 #include <optional>
 
-#include "studies/analysis/study_results.hpp"
+#include "studies/analysis/case_life.hpp"
 
 namespace flankwright::studies {
 
-/// A load case solved with half the intervals at coarse_phases(), and its mesh, which lives on.
-struct CoarseCycle {
-  const MeshModel* mesh;
-  LoadedCycle cycle;
-};
 /// That of a load case; nothing where there is none.
 using CoarseCycleOf = std::function<std::optional<CoarseCycle>(const LoadedResult&)>;
 

@@ -123,6 +123,21 @@ void note_signal(const Study& study, std::vector<std::string>& notes) {
   }
 }
 
+/// What of a load spectrum loads the other flank, where no scene rates that one.
+void note_reversed_loads(const Study& study, std::vector<std::string>& notes) {
+  if (std::ranges::any_of(study.scenes, [&](const Scene& scene) { return loads_other_flanks(study, scene); })) return;
+  double cycles = 0.0, reversed = 0.0;
+  for (const SpectrumBin& bin : study.spectrum) {
+    cycles += bin.cycles;
+    if (bin.torque < 0.0) reversed += bin.cycles;
+  }
+  if (!(reversed > 0.0)) return;
+  notes.push_back(fmt::format(
+      "load.spectrum: for {:.3g} % of the revolutions the torque is below 0 and loads the other flank, which counts as time without load here; a "
+      "scene with the other working_flank rates that one",
+      100.0 * reversed / cycles));
+}
+
 /// What the flank behind the study's own is taken to be.
 void note_other_flanks(const Study& study, std::vector<std::string>& notes) {
   std::vector<std::string> names;
@@ -193,6 +208,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
     note_unused_process_data(study, m, notes);
   }
   note_signal(study, notes);
+  note_reversed_loads(study, notes);
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format(
         "the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",

@@ -15,15 +15,12 @@
 #include "core/load/cycle/mesh_motion.hpp"
 #include "core/rating/shaft_misalignment.hpp"
 #include "optimize/design/for_each_in_parallel.hpp"
-#include "studies/analysis/edge_contact_note.hpp"
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
-#include "studies/analysis/spectrum_life.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/compliance/study_compliance.hpp"
-#include "studies/study_file/study_life.hpp"
 #include "studies/study_file/study_shafts.hpp"
 
 namespace flankwright::studies {
@@ -83,11 +80,11 @@ MeshAt StudyRun::mesh_at(const FlankCondition& condition, double torque, bool sh
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
   const std::vector<SpectrumBin>& bins = results_.study.spectrum;
-  double revolutions = 0.0;
-  for (const SpectrumBin& bin : bins) revolutions += bin.torque > 0.0 ? bin.cycles : 0.0;
   std::vector<DesignScene> scenes;
   for (std::size_t number = 0; number < of_study.size(); ++number) {
     const Scene& scene = of_study[number];
+    double revolutions = 0.0;  // under load
+    for (std::size_t k = 0; k < bins.size(); ++k) revolutions += scene.torques[k] > 0.0 ? bins[k].cycles : 0.0;
     for (std::size_t k = 0; k < scene.torques.size(); ++k) {
       const double torque = scene.torques[k];
       if (torque == 0.0) continue;
@@ -112,6 +109,12 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
 void StudyRun::set_phases() {
   const Cycle& cycle = results_.study.cycle;
   results_.phases = cycle.phases.empty() ? equally_spaced_phases(cycle.positions) : cycle.phases;
+}
+
+void StudyRun::set_intervals(int intervals) {
+  assert(results_.loaded.empty());
+  results_.study.fidelity.quadrature.intervals = intervals;
+  forget_loaded();
 }
 
 void StudyRun::set_positions(int positions) {
@@ -292,75 +295,6 @@ void StudyRun::hold_against_finer(std::size_t first) {
       loaded->compared_intervals = quadrature.intervals;
     }
   });
-}
-
-namespace {
-
-/// Ratios of peaks are known better than the peaks: the intervals that an analysis begins with do, where the study gives none.
-Quadrature rating_quadrature(const Fidelity& fidelity) {
-  Quadrature quadrature = fidelity.quadrature;
-  if (fidelity.automatic_intervals) quadrature.intervals = std::min(quadrature.intervals, AutomaticResolution{}.intervals);
-  return quadrature;
-}
-
-}  // namespace
-
-void StudyRun::rate() {
-  if (!locates_peaks(results_.study)) return;
-  const Stopwatch clock;
-  const Quadrature quadrature = rating_quadrature(results_.study.fidelity);
-  const auto mesh_for = [this, quadrature](double torque) {
-    return [=, this](const FlankCondition& condition, bool shafts_deflect, const std::vector<MeshParameter>& by) {
-      return mesh_at(condition, torque, shafts_deflect, by, quadrature);
-    };
-  };
-  std::vector<LoadRater::Case> cases;
-  for (const LoadedResult& loaded : results_.loaded) {
-    if (loaded.cycle.usable()) cases.push_back({mesh_for(loaded.torque), loaded.condition, loaded.torque});
-  }
-  rater_.has_shafts = results_.shafts != nullptr;
-  rater_.seek(cases);
-  for (LoadedResult& loaded : results_.loaded) {
-    if (!loaded.cycle.usable()) continue;
-    loaded.rating = rater_.rate(mesh_for(loaded.torque), loaded.condition, loaded.torque, gradient_parameters());
-    loaded.rating->quadrature = quadrature;
-  }
-  results_.steps.push_back({"load_factors", "peaks between the positions, of the perfect pair and of parts of the conditions", clock.seconds()});
-}
-
-void StudyRun::rate_life() {
-  results_.life_model = life_model(study());
-  results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
-  if (results_.life) results_.notes.insert(results_.notes.end(), results_.life->not_summed.begin(), results_.life->not_summed.end());
-}
-
-void StudyRun::find_edge_contact() {
-  const Stopwatch clock;
-  tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
-    LoadedResult& loaded = results_.loaded[i];
-    const MeshModel& model = results_.models[loaded.model];
-    // The stress is NaN of sharp edges, and where the effect is off.
-    if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(model, loaded.cycle)) return;
-    // Half the points and positions do, unless no edge is reached with them.
-    const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
-    if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
-    if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(model, loaded.condition, loaded.torque);
-    // Between the positions an edge may touch earlier, or there alone.
-    if (!loaded.resolved.extreme_mesh) return;
-    const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque);
-    if (between && (!loaded.edge_contact || between->torque < loaded.edge_contact->torque)) loaded.edge_contact = between;
-  });
-  if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
-  results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});
-  results_.notes.push_back(edge_contact_note(results_.loaded));
-}
-
-void StudyRun::size_effects() {
-  const Stopwatch clock;
-  results_.effect_sizes = study_effect_sizes(results_);
-  if (results_.effect_sizes.estimated.empty()) return;
-  results_.steps.push_back(
-      {"effect_sizes", results_.effect_sizes.exact.empty() ? "estimates" : "estimates, and each left out in turn", clock.seconds()});
 }
 
 std::vector<MeshParameter> StudyRun::gradient_parameters() const {

@@ -39,8 +39,9 @@ class StudyRun {
   /// Phases of the loaded mesh positions: as given, or evenly spaced.
   void set_phases();
 
-  /// The study goes on with so many evenly spaced positions; nothing loaded may be among the results yet.
+  /// The study goes on with so many evenly spaced positions, or intervals along each contact line; nothing loaded may be among the results yet.
   void set_positions(int positions);
+  void set_intervals(int intervals);
 
   /// Structure and root stress of both gears, made when first needed.
   const GearStructures& structures();
@@ -65,7 +66,8 @@ class StudyRun {
   /// kept, and narrows their errors. Tasks that do not refine call it; where the study gives its intervals it does nothing.
   void hold_against_finer(std::size_t first);
 
-  /// Adds refined peaks with and without spikes, and the load factors that follow, to the load cases of the results.
+  /// Adds refined peaks with and without spikes, and the load factors that follow, to the load cases of the results. Where peaks are sampled, as in an
+  /// optimisation, only the load cases that govern have them, and only for a pair with a strength, whose safeties take the load factors.
   void rate();
 
   /// Adds what the load cases do to life, after rate(): safeties take its load factors.

@@ -43,7 +43,8 @@ Json gear_case_json(const CaseLife& of, Member m) {
           {"S_H", of.iso_contact_safety[m]},
           {"S_F", of.iso_root_safety[m]},
           {"Y_F", of.iso.Y_F[m]},
-          {"Y_S", of.iso.Y_S[m]}};
+          {"Y_S", of.iso.Y_S[m]},
+          {"Y_B", of.iso.Y_B[m]}};
 }
 
 Json life_case_json(const StudyResults& results, const CaseLife& of) {

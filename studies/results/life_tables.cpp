@@ -71,6 +71,18 @@ std::string grade_line(const LifeTable& life, Member m) {
                      limit(life.root[m], root_stress_number(grade)));
 }
 
+/// Which load factors S_H and S_F have, where they are not those of the loaded contact.
+std::string load_factor_line(const std::vector<CaseLife>& cases) {
+  const auto has_safety = [](const CaseLife& c) { return !std::isnan(least_safety(c.iso_contact_safety)); };
+  const auto of_contact = std::ranges::count_if(cases, [&](const CaseLife& c) { return has_safety(c) && c.K_from_contact; });
+  const auto rated = std::ranges::count_if(cases, has_safety);
+  if (of_contact == rated) return {};
+  return fmt::format(
+      "{}: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment and for which rims on webs do not tilt; cycle.peaks = \"refined\" takes "
+      "K_H of the loaded contact\n",
+      of_contact > 0 ? "S_H of the load cases that do not govern" : "S_H");
+}
+
 }  // namespace
 
 std::string life_table(const StudyResults& results, std::size_t width) {
@@ -104,13 +116,7 @@ std::string life_table(const StudyResults& results, std::size_t width) {
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
-  const bool has_safety = std::ranges::any_of(life.cases, [](const CaseLife& c) { return !std::isnan(least_safety(c.iso_contact_safety)); });
-  const bool by_method_c = std::ranges::any_of(life.cases, [](const CaseLife& c) { return !c.K_from_contact; });
-  if (has_safety && by_method_c) {
-    out +=
-        "S_H: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment and for which rims on webs do not tilt; an analysis of the design has K_H of the "
-        "loaded contact\n";
-  }
+  out += load_factor_line(life.cases);
   for (const Member m : each_gear) out += grade_line(results.study.life, m);
   return out;
 }

@@ -18,7 +18,7 @@
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/effects_json.hpp"
 #include "studies/study_file/given_units.hpp"
-#include "studies/results/governing_cases.hpp"
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/results/gradients_json.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/version.hpp"

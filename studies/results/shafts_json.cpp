@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/rating/shaft_misalignment.hpp"
-#include "studies/results/governing_cases.hpp"
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/results/unit_json.hpp"
 
 namespace flankwright::studies {

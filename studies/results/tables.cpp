@@ -11,7 +11,7 @@
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/bodies_json.hpp"
-#include "studies/results/governing_cases.hpp"
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/results/life_tables.hpp"
 #include "studies/results/load_rating_tables.hpp"
 #include "studies/results/shafts_json.hpp"

@@ -83,9 +83,12 @@ Json used_gear_json(const StudyResults& results, Member member) {
 
 Json cycle_json(const StudyResults& results) {
   const Cycle& cycle = results.study.cycle;
+  const bool are_rated = std::ranges::any_of(results.loaded, [](const LoadedResult& loaded) { return loaded.rating.has_value(); });
   return {{"positions", cycle.positions},
           {"phases", cycle.phases},
-          {"peaks", locates_peaks(results.study) ? "refined" : "sampled"},
+          {"peaks", locates_peaks(results.study) ? "refined"
+                    : are_rated                  ? "refined in the load cases that govern"
+                                                 : "sampled"},
           {"automatic", cycle.automatic_positions && cycle.phases.empty()}};
 }
 

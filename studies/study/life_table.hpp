@@ -12,7 +12,7 @@ namespace flankwright::studies {
 
 /// One load of [load] spectrum.
 struct SpectrumBin {
-  double torque{not_given};       ///< on the pinion [N mm], >= 0; 0: no load, no damage
+  double torque{not_given};       ///< on the pinion [N mm]; > 0 loads the pair's working flank, < 0 the other one; 0: no load, no damage
   double speed{not_given};        ///< of the pinion [rad/s], > 0; NaN: that of the load table
   double hours{not_given};        ///< [s], > 0
   double cycles{not_given};       ///< revolutions of the pinion, > 0; NaN: from hours and speed

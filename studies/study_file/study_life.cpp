@@ -188,12 +188,26 @@ void read_spectrum(StudyReading& reading) {
   for (std::size_t k = 0; k < bins.size(); ++k) {
     if (std::isnan(bins[k].torque)) continue;  // refused where it is read
     if (!reading.builder.study.signal) check_bin(reading, bins[k], static_cast<int>(k));
-    torques.push_back(bins[k].torque);
+    torques.push_back(std::max(0.0, bins[k].torque));
   }
   if (torques.empty()) torques = {0.0};
 }
 
+namespace {
+
+/// Where the spectrum has a direction, scenes that load the other flank take the torques below 0.
+void reverse_torques(Study& study) {
+  if (std::ranges::none_of(study.spectrum, [](const SpectrumBin& bin) { return bin.torque < 0.0; })) return;
+  for (Scene& scene : study.scenes) {
+    if (!loads_other_flanks(study, scene) || scene.torques.size() != study.spectrum.size()) continue;
+    for (std::size_t k = 0; k < scene.torques.size(); ++k) scene.torques[k] = std::max(0.0, -study.spectrum[k].torque);
+  }
+}
+
+}  // namespace
+
 void check_life(StudyReading& reading) {
+  reverse_torques(reading.builder.study);
   const Study& study = reading.builder.study;
   for (const Member m : both_gears) {
     check_grade(reading, m);
@@ -217,8 +231,10 @@ std::shared_ptr<const LifeModel> life_model(const Study& study) {
   if (!asks_for_life(study)) return nullptr;
   auto model = std::make_shared<LifeModel>();
   const LifeTable& life = study.life;
-  for (const Member m : both_gears)
+  for (const Member m : both_gears) {
     model->strength[m] = {sn_curve(life.grade[m], life.contact[m], false), sn_curve(life.grade[m], life.root[m], true)};
+    if (study.body[m].web) model->rim_thickness[m] = study.body[m].web->rim_thickness;
+  }
   if (study.life.has_lubricant) model->lubricant = study.life.lubricant;
   model->roughness = study.life.roughness / units::um;
   model->bulk_temperature = study.life.bulk_temperature;
@@ -227,13 +243,14 @@ std::shared_ptr<const LifeModel> life_model(const Study& study) {
   return model;
 }
 
+bool has_strength(const Study& study) {
+  return std::ranges::any_of(
+      both_gears, [&](Member m) { return study.life.grade[m] || !std::isnan(study.life.contact[m].limit) || !std::isnan(study.life.root[m].limit); });
+}
+
 bool asks_for_life(const Study& study) {
-  const auto has_strength = [&](Member m) {
-    return study.life.grade[m] || !std::isnan(study.life.contact[m].limit) || !std::isnan(study.life.root[m].limit);
-  };
   const auto has_speed = [](const Scene& scene) { return !std::isnan(scene.speed); };
-  return !study.spectrum.empty() || study.life.has_lubricant || std::ranges::any_of(both_gears, has_strength) ||
-         std::ranges::any_of(study.scenes, has_speed);
+  return !study.spectrum.empty() || study.life.has_lubricant || has_strength(study) || std::ranges::any_of(study.scenes, has_speed);
 }
 
 }  // namespace flankwright::studies

@@ -16,6 +16,9 @@ void check_life(StudyReading& reading);
 /// What outputs of life need; null where the study says nothing about it.
 std::shared_ptr<const LifeModel> life_model(const Study& study);
 
+/// Whether the study gives a strength of a flank or a root.
+bool has_strength(const Study& study);
+
 /// Whether an analysis computes life, loss or film: the study has a spectrum, a strength, a lubricant or a speed.
 bool asks_for_life(const Study& study);
 

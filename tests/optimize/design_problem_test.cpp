@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "optimize/design/more_intervals.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
@@ -166,4 +167,20 @@ TEST_CASE("Measures weigh the outputs in the units of a report", "[optimize][des
   CHECK(problem.objective(analysis) == worst);
   CHECK(task.objective_name() == "te_peak_to_peak + peak_contact_stress");
   CHECK(std::string(task.objective_unit()) == "weighted sum");
+}
+
+TEST_CASE("Intervals along the contact lines are too few where twice as many change the objective", "[optimize][design]") {
+  DesignTask task = helical();
+  task.resolution.quadrature = {QuadratureRule::Graded, 2};
+  const auto judged = [&](int intervals) {
+    DesignTask of = task;
+    of.resolution.quadrature.intervals = intervals;
+    DesignProblem problem(of);
+    const DesignReport report = report_design(problem, problem.analyse_given());
+    return std::pair{needs_more_intervals(problem, report, false), report.objective};
+  };
+  const auto [needs, coarse] = judged(2);
+  REQUIRE(std::abs(judged(4).second / coarse - 1.0) > change_by_intervals);  // else this task shows nothing
+  CHECK(needs);
+  CHECK_FALSE(judged(32).first);  // graded intervals converge with order one at least: a sixteenth of that change is left
 }

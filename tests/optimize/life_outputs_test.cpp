@@ -38,14 +38,17 @@ DesignTask task_under_spectrum(double hours = 1.0) {
   }
   life.lubricant = Lubricant{.viscosity_40 = 220.0, .viscosity_100 = 19.0, .temperature = 80.0};
   life.roughness = 0.5;
+  life.permissible_film = 0.3;
+  life.scuffing_temperature = 250.0;
   task.life = std::make_shared<const LifeModel>(life);
   task.objective = {term(Output::ContactDamage)};
   task.constraints = {{.output = term(Output::RootDamage), .maximum = 1e6}, {.output = term(Output::SpecificFilmThickness), .minimum = 1e-3}};
   return task;
 }
 
-const std::vector<Output> life_terms{Output::ContactDamage,         Output::RootDamage,       Output::LossFactor,
-                                     Output::SpecificFilmThickness, Output::FlashTemperature, Output::ContactTemperature};
+const std::vector<Output> life_terms{
+    Output::ContactDamage,      Output::RootDamage,         Output::LossFactor,      Output::SpecificFilmThickness,   Output::FlashTemperature,
+    Output::ContactTemperature, Output::ContactUtilisation, Output::RootUtilisation, Output::MicropittingUtilisation, Output::ScuffingUtilisation};
 
 }  // namespace
 
@@ -60,6 +63,36 @@ TEST_CASE("Gradients of damage, loss, film and temperature are what central diff
     // As the other outputs' gradients: some 0.001 um; the exponent 13 of the S-N curve magnifies curvature.
     CHECK(check_output_gradients(problem, x, terms, 1e-5, 1e-6) > 50);
   }
+}
+
+TEST_CASE("A utilisation is the stress, the film or the temperature of a load case over what it may be", "[optimize][design][life]") {
+  DesignProblem problem(task_under_spectrum());
+  const DesignAnalysis& analysis = problem.analyse(problem.start(), false);
+  const LifeModel& life = *problem.task().life;
+  for (int s = 0; s < 3; ++s) {
+    CAPTURE(s);
+    const LoadedScene scene = problem.scene(analysis, s);
+    const auto value = [&](Output output) { return output_value(term(output), scene); };
+    const Operation& operation = problem.task().scenes[static_cast<std::size_t>(s)].operation;
+    // The wheel has fewer load cycles and bears more. Round-off.
+    const double cycles = load_cycles(scene.model.pair, Member::Pinion, operation);
+    CHECK(value(Output::ContactUtilisation) ==
+          Approx(value(Output::PeakContactStress) / life.strength.pinion.contact->stress_for(cycles)).epsilon(1e-12));
+    CHECK(value(Output::MicropittingUtilisation) == Approx(0.3 / value(Output::SpecificFilmThickness)).epsilon(1e-12));
+    CHECK(value(Output::ScuffingUtilisation) == Approx((value(Output::ContactTemperature) - 80.0) / 170.0).epsilon(1e-12));
+    const double root = value(Output::PeakRootStress) / life.strength.pinion.root->stress_for(cycles);
+    CHECK(value(Output::RootUtilisation) <= Approx(root).epsilon(1e-12));  // equal where the pinion's root has the largest stress
+    CHECK(value(Output::RootUtilisation) > 0.5 * root);
+  }
+  // Without load cycles it is the limit for ever.
+  DesignTask endless = task_under_spectrum();
+  for (DesignScene& scene : endless.scenes) scene.operation.revolutions = not_given;
+  endless.objective = {term(Output::ContactUtilisation)};
+  endless.constraints.clear();
+  DesignProblem problem_for_ever(endless);
+  const LoadedScene scene = problem_for_ever.scene(problem_for_ever.analyse(problem_for_ever.start(), false), 0);
+  CHECK(output_value(term(Output::ContactUtilisation), scene) ==
+        Approx(output_value(term(Output::PeakContactStress), scene) / life.strength.pinion.contact->limit).epsilon(1e-12));
 }
 
 TEST_CASE("Damage is a sum over the load cases of a spectrum, of which the worst point counts", "[optimize][design][life]") {

@@ -41,6 +41,10 @@ double life_error(const StudyLife& life, std::size_t loaded, Output output) {
       return of->errors.flash_temperature;
     case Output::ContactTemperature:
       return of->errors.contact_temperature;
+    case Output::MicropittingUtilisation:  // 1/S
+      return of->errors.micropitting_safety / (of->micropitting_safety * of->micropitting_safety);
+    case Output::ScuffingUtilisation:
+      return of->errors.scuffing_safety / (of->scuffing_safety * of->scuffing_safety);
     default:
       return not_given;
   }

@@ -10,7 +10,7 @@
 namespace flankwright::studies {
 
 bool minimises_root_stress(const Study& study) {
-  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress || term.output == Output::RootDamage; };
+  const auto is_root_stress = [](const ObjectiveTerm& term) { return design_output(term.output).of_roots; };
   const auto in_objective = [&](const Objective& objective) { return std::ranges::any_of(objective.terms, is_root_stress); };
   const OptimiseTable& optimise = study.optimise;
   return std::ranges::any_of(optimise.objective, is_root_stress) ||
@@ -95,11 +95,19 @@ void check_life_outputs(StudyReading& reading) {
     if (row.is_least && !key.starts_with("optimise.constraints."))
       reading.refuse_key(key, term.name + " is better where it is large: allowed is { min = ... } in optimise.constraints");
     if (row.over_spectrum && study.spectrum.empty()) refuse(key, term, "load.spectrum, which is not given");
-    if (term.output == Output::ContactDamage && !has_curve(&FatigueStrength::contact)) {
+    const bool of_flanks = term.output == Output::ContactDamage || term.output == Output::ContactUtilisation;
+    const bool of_roots = term.output == Output::RootDamage || term.output == Output::RootUtilisation;
+    if (of_flanks && !has_curve(&FatigueStrength::contact)) {
       refuse(key, term, "material.strength or material.contact_endurance_limit, neither of which is given");
     }
-    if (term.output == Output::RootDamage && !has_curve(&FatigueStrength::root))
+    if (of_roots && !has_curve(&FatigueStrength::root))
       refuse(key, term, "material.strength or material.root_endurance_limit, neither of which is given");
+    if (term.output == Output::MicropittingUtilisation && !(study.life.permissible_film > 0.0)) {
+      refuse(key, term, "lubricant.permissible_film, which is not given");
+    }
+    if (term.output == Output::ScuffingUtilisation && std::isnan(study.life.scuffing_temperature)) {
+      refuse(key, term, "lubricant.scuffing_temperature, which is not given");
+    }
     if (!row.needs_oil) continue;
     if (!study.life.has_lubricant) refuse(key, term, "a table [lubricant], which is not given");
     if (has_refused_load(reading)) continue;

@@ -10,6 +10,7 @@
 #include "core/fidelity/resolved_analysis.hpp"
 #include "optimize/assessment/usual_signs.hpp"
 #include "optimize/design/between_positions.hpp"
+#include "optimize/design/more_intervals.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/life_error.hpp"
 #include "studies/analysis/requirements.hpp"
@@ -42,6 +43,7 @@ class OptimiseRun {
     TwoLevelDesign found = optimise_by_two_levels(problem, exact);
     take_more_positions(problem, exact, found);
     take_better_usual_design(problem, exact, found);
+    take_more_intervals(problem, exact, found);
     choose_what_to_grind(problem, choice, found);
     keep_constraints_between_positions(problem, choice, found);
     if (seeks_extremes(study))
@@ -198,13 +200,36 @@ class OptimiseRun {
       if (!rises_between_positions(best, shown_between_positions(problem, best), infeasible)) return;
       const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
       run_.set_positions(2 * cycle.positions);
-      results_.design_task = design_task();
-      problem = DesignProblem(*results_.design_task);
-      go_on_from_best(problem, options, best_starts(problem, found.design, x), found);
-      found.fine.resolution = problem.task().resolution;
+      go_on_at_resolution(problem, options, x, found);
       found.fine.seconds += clock.seconds();
       found.design.seconds = seconds + clock.seconds();
     }
+  }
+
+  /// A search with few points along the contact lines may see a transmission error, or an order of the scenes, that more points do not. It goes on with twice
+  /// the intervals then, up to those of an analysis.
+  void take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+    const Fidelity& fidelity = results_.study.fidelity;
+    while (fidelity.automatic_intervals && 2 * fidelity.quadrature.intervals <= AutomaticResolution{}.most_intervals) {
+      const Stopwatch clock;
+      const double seconds = found.design.seconds;
+      const DesignReport& best = found.design.exact ? *found.design.exact : found.design.after;
+      const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
+      if (!usable || !needs_more_intervals(problem, best, found.design.status == SolverStatus::Infeasible)) return;
+      const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
+      run_.set_intervals(2 * fidelity.quadrature.intervals);
+      go_on_at_resolution(problem, options, x, found);
+      found.fine.seconds += clock.seconds();
+      found.design.seconds = seconds + clock.seconds();
+    }
+  }
+
+  /// Continues from a design, or from optima beside it, at a resolution that has changed.
+  void go_on_at_resolution(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found) {
+    results_.design_task = design_task();
+    problem = DesignProblem(*results_.design_task);
+    go_on_from_best(problem, options, best_starts(problem, found.design, x), found);
+    found.fine.resolution = problem.task().resolution;
   }
 
   /// A search may get stuck at a design that is seldom ground. Where the best design within the limits that flanks have as a rule is better, the search goes on

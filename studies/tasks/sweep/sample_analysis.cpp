@@ -5,7 +5,9 @@
 
 #include "core/contact/unloaded/transmission_error.hpp"
 #include "core/rating/shaft_misalignment.hpp"
+#include "studies/analysis/case_life.hpp"
 #include "studies/base/json_format.hpp"
+#include "studies/study_file/study_life.hpp"
 
 namespace flankwright::studies {
 
@@ -29,9 +31,29 @@ struct IsoOutput {
 constexpr std::array iso_outputs{IsoOutput{"iso6336_K_Hbeta", [](const IsoLoadFactors& iso) { return iso.lead; }},
                                  IsoOutput{"iso6336_K_Halpha", [](const IsoLoadFactors& iso) { return iso.profile; }}};
 
+/// Outputs of life, each where the nominal load case has it. Safeties are those of the more endangered gear by the local stress.
+struct LifeOutput {
+  const char* name;
+  const char* unit;
+  double (*value)(const CaseLife&);
+  bool smaller_is_worse{true};
+};
+double least(const PerGear<double>& safety) { return std::fmin(safety.pinion, safety.wheel); }
+constexpr std::array life_outputs{
+    LifeOutput{"loss_factor", "-", [](const CaseLife& c) { return c.loss_factor; }, false},
+    LifeOutput{"loss_power_W", "W", [](const CaseLife& c) { return c.loss_power; }, false},
+    LifeOutput{"specific_film_thickness", "-", [](const CaseLife& c) { return c.film; }},
+    LifeOutput{"micropitting_safety", "-", [](const CaseLife& c) { return c.micropitting_safety; }},
+    LifeOutput{"flash_temperature_K", "K", [](const CaseLife& c) { return c.flash_temperature; }, false},
+    LifeOutput{"contact_temperature_degC", "degC", [](const CaseLife& c) { return c.contact_temperature; }, false},
+    LifeOutput{"scuffing_safety", "-", [](const CaseLife& c) { return c.scuffing_safety; }},
+    LifeOutput{"contact_safety", "-", [](const CaseLife& c) { return least(c.contact_safety); }},
+    LifeOutput{"root_safety", "-", [](const CaseLife& c) { return least(c.root_safety); }},
+};
+
 }  // namespace
 
-SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal) {
+SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal), life_(life_model(nominal.study)) {
   if (!is_loaded()) {
     outputs_ = {{"peak_to_peak_arcsec", "arcsec"}, {"peak_to_peak_um", "um"}};
     for (std::size_t k = 1; k <= nominal.unloaded.front().mesh.harmonics.size(); ++k) {
@@ -45,6 +67,12 @@ SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal) 
     outputs_.push_back({entry.key(), entry.quantity->unit.empty() ? "-" : std::string(entry.quantity->unit), entry.quantity->smaller_is_worse});
   }
   for (const IsoOutput& iso : iso_outputs) outputs_.push_back({iso.name, "-"});
+  if (life_ == nullptr) return;
+  const CaseLife of_nominal = case_life(nominal.models.front(), *life_, nominal.loaded.front());
+  for (const LifeOutput& life : life_outputs) {
+    has_life_output_.push_back(!std::isnan(life.value(of_nominal)));
+    if (has_life_output_.back()) outputs_.push_back({life.name, life.unit, life.smaller_is_worse});
+  }
 }
 
 SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
@@ -53,7 +81,7 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
     SweptCondition swept = SweptCondition::of(study);
     for (std::size_t j = 0; j < values.size(); ++j) set_swept(swept, study.sweep.parameters[j], values[j]);
     const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
-    return {"", is_loaded() ? loaded_outputs(condition, swept.scene.torques.front()) : unloaded_outputs(condition)};
+    return {"", is_loaded() ? loaded_outputs(condition, swept.scene) : unloaded_outputs(condition)};
   } catch (const InvalidInput& problem) {
     return {problem.field() + ": allowed is " + problem.allowed(), {}};  // without the value, which the sample has
   } catch (const SampleFailure& failure) {
@@ -61,7 +89,8 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
   }
 }
 
-std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& condition, double torque) const {
+std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& condition, const Scene& scene) const {
+  const double torque = scene.torques.front();
   if (!(torque > 0.0)) throw SampleFailure{"load.torque is 0: without load there are no loaded outputs"};
   const Study& study = nominal_.study;
   const MeshPlacement placement = placement_of(gap_model(nominal_.effects), condition, nominal_.shafts.get(), torque);
@@ -72,7 +101,10 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
                           nominal_.structures.pair.get(), nominal_.structures.root_stress.get(), nominal_.shafts.get());
     model = &*own;
   }
-  const LoadedCycle cycle = analyse_cycle(*model, condition, torque);
+  LoadedResult loaded;
+  loaded.torque = torque;
+  loaded.cycle = analyse_cycle(*model, condition, torque);
+  const LoadedCycle& cycle = loaded.cycle;
   if (!cycle.usable()) {
     throw SampleFailure{"the load distribution did not converge at " + std::to_string(cycle.failures) + " mesh positions"};
   }
@@ -82,13 +114,20 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   };
   const MeshAt mesh_at = own ? made_at : memory_.remembering(made_at);
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
-  const CycleSummary summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
+  loaded.summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
   const double by_shafts = nominal_.shafts ? shaft_misalignment(nominal_.shafts->at_torque(torque), *model, cycle) : 0.0;
   const IsoDeviations deviations = iso_deviations(model->pair, condition, by_shafts);
-  const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, deviations, torque, model->face_width);
+  loaded.iso = iso_load_factors(model->pair, model->iso, deviations, torque, model->face_width);
   std::vector<double> values;
-  for (const CycleEntry& entry : entries_) values.push_back(entry.value(summary));
-  for (const IsoOutput& output : iso_outputs) values.push_back(output.value(iso));
+  for (const CycleEntry& entry : entries_) values.push_back(entry.value(loaded.summary));
+  for (const IsoOutput& output : iso_outputs) values.push_back(output.value(loaded.iso));
+  if (life_ == nullptr) return values;
+  loaded.operation = nominal_.loaded.front().operation;
+  loaded.operation.speed = scene.speed;
+  const CaseLife life = case_life(*model, *life_, loaded);
+  for (std::size_t k = 0; k < life_outputs.size(); ++k) {
+    if (has_life_output_[k]) values.push_back(life_outputs[k].value(life));
+  }
   return values;
 }
 

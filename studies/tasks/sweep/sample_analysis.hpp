@@ -37,13 +37,15 @@ class SampleAnalysis {
   SampleResult analyse(const std::vector<double>& values) const;
 
  private:
-  std::vector<double> loaded_outputs(const FlankCondition& condition, double torque) const;
+  std::vector<double> loaded_outputs(const FlankCondition& condition, const Scene& scene) const;
   std::vector<double> unloaded_outputs(const FlankCondition& condition) const;
   bool is_loaded() const { return !nominal_.loaded.empty(); }
 
   const StudyResults& nominal_;
-  mutable PositionMemory memory_;    ///< of the nominal placement between its positions
-  std::vector<CycleEntry> entries_;  ///< those of the outputs under load that are entries of cycle_quantities()
+  mutable PositionMemory memory_;          ///< of the nominal placement between its positions
+  std::vector<CycleEntry> entries_;        ///< those of the outputs under load that are entries of cycle_quantities()
+  std::shared_ptr<const LifeModel> life_;  ///< null: the study does not ask for life
+  std::vector<bool> has_life_output_;      ///< of each output of life
   std::vector<SweepOutput> outputs_;
 };
 

@@ -251,6 +251,22 @@ TEST_CASE("The torque at which edge contact begins parts torques with and withou
   CHECK(edge_contact_start(model, relieved(0.0), torque)->torque < 0.01 * torque);
 }
 
+TEST_CASE("Between few mesh positions the torque at which edge contact begins is that of many", "[core][rating][edge]") {
+  const GearPair gears = rounded_pair(0, 0.1);
+  const FlankCondition condition = relieved(8 * units::um);
+  const MeshAt at = [&](const std::vector<double>& phases) { return mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, phases}); };
+  const auto start = [&](int positions) { return edge_contact_start(at(equally_spaced_phases(positions)), condition, torque).value(); };
+  constexpr double sought = 2e-3 * torque;
+  for (const int positions : {16, 32}) {
+    CAPTURE(positions);
+    const EdgeContactStart coarse = start(positions), found = edge_contact_start_near(at, condition, torque, coarse, 1.0 / positions);
+    CHECK(found.torque <= coarse.torque);
+    // Discretisation: phases beside the start lie as close as those of 256 positions.
+    CHECK(found.torque == Approx(start(256).torque).margin(2 * sought));
+    CHECK(found.gear == coarse.gear);
+  }
+}
+
 TEST_CASE("The torque at which contact reaches an edge goes to that of the sharp edge as its rounding vanishes", "[core][rating][edge]") {
   const FlankCondition condition = relieved(8 * units::um);
   const auto start = [&](double rounding) {

@@ -63,3 +63,19 @@ TEST_CASE("Stress numbers are linear in the load, contact in its root", "[core][
   CHECK(root_face_load_factor(gears, 1e6, 1.5) == Approx(1.5).epsilon(1e-4));  // a wide face: N_F = 1
   CHECK(root_face_load_factor(gears, 1.0, 1.5) == Approx(std::pow(1.5, 9.0 / 13.0)));
 }
+
+TEST_CASE("A thin rim raises the root stress of its gear by the rim thickness factor", "[core][rating][iso-stress]") {
+  const GearPair gears = mesh_cases::pair(20, 60, 0, 5, 40);
+  const PerGear<Material> steel{mesh_cases::steel, mesh_cases::steel};
+  const double depth = gears.wheel.tip_radius - gears.wheel.root_radius;
+  CHECK(rim_thickness_factor(gears.wheel, not_given) == 1.0);
+  CHECK(rim_thickness_factor(gears.wheel, 3.0 * depth) == 1.0);
+  // Both pieces meet at 1.2 to the digits that the standard prints.
+  CHECK(rim_thickness_factor(gears.wheel, (1.2 - 1e-9) * depth) == Approx(1.0).epsilon(1e-3));
+  CHECK(rim_thickness_factor(gears.wheel, depth * 2.0 / 3.0) == Approx(1.6 * std::log(2.242 * 1.5)).epsilon(1e-12));
+  const IsoStressNumbers solid = iso_stress_numbers(gears, steel, 4e5, 40.0);
+  const IsoStressNumbers rim = iso_stress_numbers(gears, steel, 4e5, 40.0, {not_given, depth * 2.0 / 3.0});
+  CHECK(rim.root.pinion == solid.root.pinion);
+  CHECK(rim.root.wheel == Approx(rim.Y_B.wheel * solid.root.wheel).epsilon(1e-12));
+  CHECK(rim.contact == solid.contact);
+}

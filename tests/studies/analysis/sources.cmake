@@ -1,6 +1,7 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/default_resolution_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/fidelity_choice_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/governing_cases_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grinding_process_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/model_honesty_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/run_study_test.cpp

@@ -89,12 +89,35 @@ TEST_CASE("What is wrong with a spectrum is told with place, key, value and what
   const StudyProblem missing = with("{ file = \"no such file.csv\" }");
   CHECK(missing.key == "load.spectrum");
   CHECK(missing.allowed.find("cannot be read") != std::string::npos);
-  const StudyProblem negative = with("[{ torque = -100, cycles = 3 }]");
-  CHECK(negative.key == "load.spectrum.0.torque");
-  CHECK(negative.allowed.find("working_flank = \"left\"") != std::string::npos);
   CHECK(life_problem(life_pair + "[load]\ntorque = 3\nspectrum = [{ torque = 1, cycles = 3 }]\n").key == "load.spectrum");
   CHECK(life_problem(life_pair + two_bins + "[[scenes]]\nload.torque = 30\n").key == "scenes.0.load.torque");
   CHECK(with("[{ torque = 100, cycles = 3 }]").key.empty());
+}
+
+TEST_CASE("A torque of a spectrum below 0 loads the other flank, in scenes that rate that one", "[studies][life]") {
+  const std::string bins = "[load]\nspectrum = [{ torque = 300, cycles = 1e6 }, { torque = -200, cycles = 3e6 }]\n";
+  const std::string coast = "[[scenes]]\nname = \"drive\"\n[[scenes]]\nname = \"coast\"\nworking_flank = \"left\"\n";
+  const Study both = life_study(life_pair + bins + life_strength + coast);
+  REQUIRE(both.scenes.size() == 2);
+  CHECK(both.scenes[0].torques == std::vector<double>{3e5, 0.0});
+  CHECK(both.scenes[1].torques == std::vector<double>{0.0, 2e5});
+  const StudyResults results = run_study(both);
+  REQUIRE(results.life);
+  REQUIRE(results.life->cases.size() == 2);
+  for (const CaseLife& of : results.life->cases) {
+    const LoadedResult& loaded = results.loaded[of.loaded];
+    CHECK(loaded.torque == (loaded.scene == "drive" ? 3e5 : 2e5));
+    CHECK(loaded.operation.revolutions == (loaded.scene == "drive" ? 1e6 : 3e6));
+    CHECK(of.contact_damage.pinion > 0.0);
+  }
+  CHECK(results.life->spectra.size() == 2);
+  const auto says_reversed = [](const StudyResults& of) {
+    return std::ranges::any_of(of.notes, [](const std::string& note) { return note.find("75 % of the revolutions") != std::string::npos; });
+  };
+  CHECK_FALSE(says_reversed(results));
+  CHECK(says_reversed(run_study(life_study(life_pair + bins + life_strength))));
+  // Where no torque has a direction, the other flank is loaded as much.
+  for (const Scene& scene : life_study(life_pair + two_bins + life_strength + coast).scenes) CHECK(scene.torques == std::vector<double>{3e5, 1.5e5});
 }
 
 TEST_CASE("A value of a spectrum that is given but wrong is not called missing as well", "[studies][life]") {

@@ -61,6 +61,37 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
   CHECK(samples[0].result.outputs[0] != samples[3].result.outputs[0]);
 }
 
+TEST_CASE("Samples have the loss, film and safety that the analysis of their own study has", "[studies][sweep][life]") {
+  const std::vector<Override> life{{"load.speed", "1000"},
+                                   {"material.contact_endurance_limit", "1500"},
+                                   {"lubricant.viscosity_40", "220"},
+                                   {"lubricant.viscosity_100", "19"},
+                                   {"lubricant.temperature", "80"},
+                                   {"lubricant.roughness", "0.5"},
+                                   {"lubricant.permissible_film", "0.2"}};
+  const Study study = sweep_study("samples = 4", "", life);
+  const std::vector<StoredSample> samples = samples_of(study);
+  const auto outputs = SampleAnalysis(run_study(study)).outputs();
+  const auto value = [&](const StoredSample& sample, const char* name) {
+    const auto found = std::ranges::find(outputs, name, &SweepOutput::name);
+    REQUIRE(found != outputs.end());
+    return sample.result.outputs[static_cast<std::size_t>(found - outputs.begin())];
+  };
+  REQUIRE(samples.size() == 4);
+  for (const StoredSample& sample : samples) {
+    REQUIRE(sample.result.failure.empty());
+    const StudyResults alone = run_study(parse_study(sample_study(study, "one", sample.values), "one.toml", {{"cycle.peaks", "sampled"}}));
+    const CaseLife& of = alone.life.value().cases.at(0);
+    CHECK(value(sample, "loss_factor") == of.loss_factor);
+    CHECK(value(sample, "loss_power_W") == of.loss_power);
+    CHECK(value(sample, "micropitting_safety") == of.micropitting_safety);
+    CHECK(value(sample, "flash_temperature_K") == of.flash_temperature);
+    CHECK(value(sample, "contact_safety") == std::fmin(of.contact_safety.pinion, of.contact_safety.wheel));
+  }
+  // Nobody gave a strength of the roots or a scuffing temperature.
+  for (const char* name : {"root_safety", "scuffing_safety"}) CHECK(std::ranges::find(outputs, name, &SweepOutput::name) == outputs.end());
+}
+
 TEST_CASE("A sample's own study finds the measured grids of the sweep's from anywhere", "[studies][sweep]") {
   Study study = sweep_study("samples = 24");
   study.file = "/gears/pump/sweep.toml";

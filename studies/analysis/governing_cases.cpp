@@ -1,4 +1,4 @@
-#include "studies/results/governing_cases.hpp"
+#include "studies/analysis/governing_cases.hpp"
 
 #include <algorithm>
 #include <array>

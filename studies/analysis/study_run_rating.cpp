@@ -1,0 +1,102 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "core/base/stopwatch.hpp"
+#include "core/fidelity/resolved_analysis.hpp"
+#include "studies/analysis/edge_contact_note.hpp"
+#include "studies/analysis/governing_cases.hpp"
+#include "studies/analysis/study_effect_sizes.hpp"
+#include "studies/analysis/study_run.hpp"
+#include "studies/study_file/study_life.hpp"
+
+/// What a StudyRun adds to load cases that are solved: load factors, life, the torques at which edges touch, sizes of effects.
+namespace flankwright::studies {
+
+namespace {
+
+/// Ratios of peaks are known better than the peaks: the intervals that an analysis begins with do, where the study gives none.
+Quadrature rating_quadrature(const Fidelity& fidelity) {
+  Quadrature quadrature = fidelity.quadrature;
+  if (fidelity.automatic_intervals) quadrature.intervals = std::min(quadrature.intervals, AutomaticResolution{}.intervals);
+  return quadrature;
+}
+
+/// The load cases whose load factors are sought: all, or where only the strength asks for them, as in an optimisation, those that govern.
+std::vector<LoadedResult*> rated_cases(StudyResults& results) {
+  const Study& study = results.study;
+  const bool all = locates_peaks(study);
+  const bool by_strength = has_strength(study) && study.cycle.phases.empty() && !study.cycle.locate_peaks.has_value();
+  std::vector<LoadedResult*> rated;
+  if (!all && !by_strength) return rated;
+  const std::vector<bool> governs = governing_cases(results);
+  for (std::size_t i = 0; i < results.loaded.size(); ++i) {
+    if (results.loaded[i].cycle.usable() && (all || governs[i])) rated.push_back(&results.loaded[i]);
+  }
+  return rated;
+}
+
+}  // namespace
+
+void StudyRun::rate() {
+  const std::vector<LoadedResult*> rated = rated_cases(results_);
+  if (rated.empty()) return;
+  const Stopwatch clock;
+  const Quadrature quadrature = rating_quadrature(results_.study.fidelity);
+  const auto mesh_for = [this, quadrature](double torque) {
+    return [=, this](const FlankCondition& condition, bool shafts_deflect, const std::vector<MeshParameter>& by) {
+      return mesh_at(condition, torque, shafts_deflect, by, quadrature);
+    };
+  };
+  std::vector<LoadRater::Case> cases;
+  for (const LoadedResult* loaded : rated) cases.push_back({mesh_for(loaded->torque), loaded->condition, loaded->torque});
+  rater_.has_shafts = results_.shafts != nullptr;
+  rater_.seek(cases);
+  for (LoadedResult* loaded : rated) {
+    loaded->rating = rater_.rate(mesh_for(loaded->torque), loaded->condition, loaded->torque, gradient_parameters());
+    loaded->rating->quadrature = quadrature;
+  }
+  results_.steps.push_back({"load_factors", "peaks between the positions, of the perfect pair and of parts of the conditions", clock.seconds()});
+}
+
+void StudyRun::rate_life() {
+  results_.life_model = life_model(study());
+  results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
+  if (results_.life) results_.notes.insert(results_.notes.end(), results_.life->not_summed.begin(), results_.life->not_summed.end());
+}
+
+void StudyRun::find_edge_contact() {
+  const Stopwatch clock;
+  tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
+    LoadedResult& loaded = results_.loaded[i];
+    const MeshModel& model = results_.models[loaded.model];
+    // The stress is NaN of sharp edges, and where the effect is off.
+    if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(model, loaded.cycle)) return;
+    // Half the points and positions do, unless no edge is reached with them.
+    const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
+    if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
+    if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(model, loaded.condition, loaded.torque);
+    // Between the positions an edge may touch earlier, or there alone.
+    if (loaded.resolved.extreme_mesh) {
+      const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque);
+      if (between && (!loaded.edge_contact || between->torque < loaded.edge_contact->torque)) loaded.edge_contact = between;
+    }
+    if (!loaded.edge_contact || !results_.study.cycle.phases.empty()) return;
+    const double spacing = 1.0 / static_cast<double>(results_.phases.size());
+    const MeshAt at = mesh_at(loaded.condition, loaded.torque, true, {}, results_.study.fidelity.quadrature);
+    loaded.edge_contact = edge_contact_start_near(at, loaded.condition, loaded.torque, *loaded.edge_contact, spacing);
+  });
+  if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
+  results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});
+  results_.notes.push_back(edge_contact_note(results_.loaded));
+}
+
+void StudyRun::size_effects() {
+  const Stopwatch clock;
+  results_.effect_sizes = study_effect_sizes(results_);
+  if (results_.effect_sizes.estimated.empty()) return;
+  results_.steps.push_back(
+      {"effect_sizes", results_.effect_sizes.exact.empty() ? "estimates" : "estimates, and each left out in turn", clock.seconds()});
+}
+
+}  // namespace flankwright::studies
