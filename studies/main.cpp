@@ -142,6 +142,7 @@ int dispatch(int argc, char** argv) {
   import->add_option("file", from.file, "REXS file, XML or JSON")->required();
   import->add_option("-o,--out", from.study, "study file to write (default: stdout)");
   import->add_option("--stage", from.stage, "which stage, of several: its number, as they are listed without this option");
+  import->add_option("--hours", from.hours, "life of the unit in hours, by which load cases with shares of time become a load spectrum");
   import->add_option("--helix-slope", from.slope_end, "face end at which a positive helix_slope removes material")
       ->check(CLI::IsMember({"non-datum", "datum"}));
   ExportCommand to;

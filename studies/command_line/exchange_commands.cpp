@@ -60,12 +60,17 @@ void export_dynamics(const std::string& json, const fs::path& results, const fs:
 }  // namespace
 
 int import_command(const ImportCommand& options) {
+  constexpr double longest = 1e7;  // h, as a load spectrum allows
+  if (options.hours && !(*options.hours > 0.0 && *options.hours <= longest)) {
+    throw InvalidInput("--hours", fmt::format("{:.6g}", *options.hours), "a number above 0 and at most 10000000 h");
+  }
   const fs::path out = options.study;
   const fs::path stem = (out.empty() ? fs::path(options.file) : out).stem();
   const rexs::UnitImport imported =
       rexs::import_unit(read_whole(options.file), options.file,
                         {.stage = options.stage,
                          .slope_end = options.slope_end == "datum" ? rexs::SlopeEnd::DatumFace : rexs::SlopeEnd::NonDatumFace,
+                         .hours = options.hours,
                          .grid_stem = stem.string()});
   const bool one = options.stage || imported.stages.size() + imported.left_out.size() == 1;
   std::vector<std::string> warnings;

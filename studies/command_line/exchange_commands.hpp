@@ -10,6 +10,7 @@ struct ImportCommand {
   std::string file;                    ///< REXS, XML or JSON
   std::string study;                   ///< file to write; empty: stdout
   std::optional<int> stage;            ///< of several
+  std::optional<double> hours;         ///< life of the unit [h]
   std::string slope_end{"non-datum"};  ///< or "datum": face end at which a positive helix_slope removes
 };
 

@@ -20,9 +20,9 @@ class Checking : Findings {
   Checking(const ShaftsOfPair& shafts, const GearPair& pair) : shafts_(shafts), unit_(shafts.unit), pair_(pair), all_(shafts.all()) {}
 
   std::vector<InvalidInput> run() {
-    for (const auto check :
-         {&Checking::check_names, &Checking::check_shafts, &Checking::check_meshes, &Checking::check_places, &Checking::check_loads,
-          &Checking::check_joints, &Checking::check_housing, &Checking::check_restraints, &Checking::check_torques, &Checking::check_axes}) {
+    for (const auto check : {&Checking::check_names, &Checking::check_shafts, &Checking::check_meshes, &Checking::check_places,
+                             &Checking::check_loads, &Checking::check_joints, &Checking::check_housing, &Checking::check_restraints,
+                             &Checking::check_torques, &Checking::check_axes, &Checking::check_room}) {
       (this->*check)();
       if (!empty()) break;  // what follows needs what came before
     }
@@ -236,6 +236,72 @@ class Checking : Findings {
       const Eigen::Vector2d here = apart(unit_.joints[i].shaft, unit_.joints[i].outer_shaft);
       require(!here.allFinite() || here.norm() <= same_axis, "unit.joints." + std::to_string(i) + ".outer_shaft", unit_.joints[i].outer_shaft,
               "a shaft on the same axis: these lie " + in_mm(here.norm()) + " apart");
+    }
+  }
+
+  /// Along z the shafts lie as their meshes have them, mid face by mid face. [mm], of each shaft's first end from mid face of the pair; NaN of those
+  /// that nothing joins.
+  std::vector<double> first_ends() const {
+    std::vector<double> ends(all_.size(), not_given);
+    const auto end_of = [&](const std::string& shaft) -> double& { return ends[static_cast<std::size_t>(*shafts_.find(shaft))]; };
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (shafts_.shaft[m]) end_of(name_of(m)) = -shafts_.shaft[m]->gear_position;
+    }
+    bool found = true;
+    const auto join = [&](const std::string& one, double at_one, const std::string& two, double at_two) {
+      double &end_one = end_of(one), &end_two = end_of(two);
+      if (std::isnan(end_one) == std::isnan(end_two)) return;
+      (std::isnan(end_one) ? end_one = end_two + at_two - at_one : end_two = end_one + at_one - at_two);
+      found = true;
+    };
+    while (found) {
+      found = false;
+      for (const UnitMesh& mesh : unit_.meshes) join(mesh.gears[0].shaft, mesh.gears[0].position, mesh.gears[1].shaft, mesh.gears[1].position);
+      for (const ShaftJoint& joint : unit_.joints) join(joint.shaft, joint.bearing.position, joint.outer_shaft, joint.outer_position);
+    }
+    return ends;
+  }
+
+  /// A gear in the room of the unit. A width of 0 takes none.
+  struct Body {
+    std::string name, shaft;
+    int mesh;  ///< -1: the pair's
+    double position, width, root_radius;
+  };
+
+  /// Gears of different shafts take no common room: their root cylinders stay apart wherever their faces overlap.
+  void check_room() {
+    constexpr double dedendum = 1.25;  // h_fP [modules], as of the basic rack; profile shifts of meshes are not known
+    std::vector<Body> taken;
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (!shafts_.shaft[m]) continue;
+      const double radius = pair_.data.normal_module * pair_[m].data.teeth / (2.0 * std::cos(pair_.data.helix_angle));
+      taken.push_back({std::string("the ") + name_of(m), name_of(m), -1, shafts_.shaft[m]->gear_position, pair_[m].data.face_width,
+                       radius - dedendum * pair_.data.normal_module});
+    }
+    const std::vector<Eigen::Vector2d> axes = axes_of(shafts_, pair_);
+    const std::vector<double> ends = first_ends();
+    const auto index = [&](const std::string& shaft) { return static_cast<std::size_t>(*shafts_.find(shaft)); };
+    for (std::size_t m = 0; m < unit_.meshes.size(); ++m) {
+      const UnitMesh& mesh = unit_.meshes[m];
+      for (std::size_t g = 0; g < 2; ++g) {
+        const Body body{"gear " + std::to_string(g + 1) + " of unit.meshes." + std::to_string(m),
+                        mesh.gears[g].shaft,
+                        static_cast<int>(m),
+                        mesh.gears[g].position,
+                        mesh.gears[g].face_width,
+                        geometry_of(mesh).reference_radius[g] - dedendum * mesh.normal_module};
+        for (const Body& other : taken) {
+          if (other.shaft == body.shaft || other.mesh == body.mesh || !(std::min(body.width, other.width) > 0.0)) continue;
+          const double along = std::abs(ends[index(body.shaft)] + body.position - ends[index(other.shaft)] - other.position);
+          const double apart = (axes[index(body.shaft)] - axes[index(other.shaft)]).norm(), least = body.root_radius + other.root_radius;
+          const bool meet = along < 0.5 * std::max(body.width, other.width) && apart < least;  // false where either is not known
+          require(!meet, "unit.meshes." + std::to_string(m) + ".angle", in_words(mesh.angle / units::deg),
+                  "one that leaves room for its gears: " + body.name + " and " + other.name + " overlap along the shafts, with axes " + in_mm(apart) +
+                      " apart, and their roots need " + in_mm(least));
+        }
+        taken.push_back(body);
+      }
     }
   }
 

@@ -10,7 +10,9 @@
 
 #include "core/base/units.hpp"
 #include "studies/exchange/rexs/modification_text.hpp"
-#include "studies/exchange/rexs/rexs_load.hpp"
+#include "studies/exchange/rexs/rexs_defects.hpp"
+#include "studies/exchange/rexs/rexs_load_cases.hpp"
+#include "studies/exchange/rexs/rexs_lubricant.hpp"
 #include "studies/exchange/rexs/rexs_shaft.hpp"
 #include "studies/exchange/rexs/rexs_unit.hpp"
 #include "studies/exchange/rexs/unit_text.hpp"
@@ -41,8 +43,12 @@ void check_version(Reading& reading) {
 class Import {
  public:
   Import(Reading& reading, const RexsImportOptions& options)
-      : reading_(reading), options_(options), parts_(find_stage(reading, options.stage)), torques_(read_torques(reading, parts_)) {
-    take_flank(reading, parts_, reference().flank, reference().flank_source);
+      : reading_(reading),
+        options_(options),
+        parts_(find_stage(reading, options.stage)),
+        cases_(reading, parts_, read_torques(reading, parts_), options.hours) {
+    check_unit();
+    take_flank(reading, parts_, cases_.reference().flank, cases_.reference().flank_source);
   }
 
   ImportedStudy study() {
@@ -56,7 +62,8 @@ class Import {
     }
     write_materials(body);
     std::string one_sided = grids_.empty() ? "" : "a measured grid";
-    if (const auto unit = read_unit(reading_, parts_, geometry, reference())) {
+    const auto unit = read_unit(reading_, parts_, geometry, cases_.torques());
+    if (unit) {
       write_unit(*unit, body);
       one_sided = "a gear unit";
     } else {
@@ -67,12 +74,22 @@ class Import {
         one_sided = "a shaft";
       }
     }
-    write_torques(loaded_torques(one_sided), body);
+    cases_.write(one_sided, unit ? unit->misalignment : std::map<const LoadCase*, double>(), body);
+    write_lubricant(reading_, parts_, cases_.temperature(), body);
     std::string not_taken = write_rest(body);
     return {head() + body.text(), std::move(grids_), reading_.warnings(), std::move(not_taken)};
   }
 
  private:
+  /// Refuses defects of the part of the unit that turns with the stage; names those of others.
+  void check_unit() {
+    std::vector<StudyProblem> defects = find_defects(reading_, part_around(reading_, *parts_.stage));
+    if (!defects.empty()) throw StudyErrors(std::move(defects));
+    for (const StudyProblem& defect : find_defects(reading_)) {
+      reading_.warn(fmt::format("in a part of the file that does not turn with the stage: {} = {}: {}", defect.key, defect.value, defect.allowed));
+    }
+  }
+
   GearPair build(const ImportedPair& pair) const {
     const std::vector<InvalidInput> problems = find_problems(pair.data);
     if (problems.empty()) return make_gear_pair(pair.data);
@@ -124,45 +141,6 @@ class Import {
     }
   }
 
-  const ImportedTorque& reference() const { return reference_of(torques_); }
-
-  /// The conditions that the study has: those with a torque, on flanks that it may load.
-  /// @param one_sided  what the study describes for the working flanks alone, so that no scene may load the others; empty: nothing
-  std::vector<ImportedTorque> loaded_torques(const std::string& one_sided) {
-    std::vector<ImportedTorque> loaded;
-    if (!(reference().torque > 0.0)) return loaded;
-    for (const ImportedTorque& torque : torques_) {
-      if (!(torque.torque > 0.0)) {
-        reading_.warn(torque.name + ": left out, the file gives no torque on the pinion");
-      } else if (torque.flank != reference().flank && !one_sided.empty()) {
-        reading_.warn(
-            fmt::format("{}: left out, its {:.6g} N m load the {} flank, and {} allows the {} flank alone: analyse it in a study of its own",
-                        torque.name, torque.torque / units::newton_metre, name_of(torque.flank), one_sided, name_of(reference().flank)));
-      } else {
-        loaded.push_back(torque);
-      }
-    }
-    return loaded;
-  }
-
-  void write_torques(const std::vector<ImportedTorque>& torques, StudyText& text) {
-    text.table("load");
-    const auto value = [](const ImportedTorque& torque) { return number_text(torque.torque / units::newton_metre); };
-    if (torques.empty()) {
-      text.key("torque", "0", "the file does not give the torque on the pinion");
-      return;
-    }
-    text.key("torque", value(torques.front()), torques.front().source);
-    if (torques.size() == 1) return;
-    for (const ImportedTorque& torque : torques) {
-      text.scene();
-      text.key("name", quoted(torque.name));
-      if (torque.flank != reference().flank) text.key("working_flank", quoted(name_of(torque.flank)), torque.flank_source);
-      text.key("load.torque", value(torque), torque.source);
-      if (torque.time_share > 0.0) text.key("weight", number_text(torque.time_share), "operating_time_fraction");
-    }
-  }
-
   /// Attributes that were not read of components that belong to the stage or were looked at, and how many there are of the others: in numbers in the
   /// study, in full in a list.
   std::string write_rest(StudyText& text) {
@@ -175,6 +153,16 @@ class Import {
       } else if (!unread.empty()) {
         attributes[component.type] += static_cast<int>(unread.size());
         all += fmt::format("  {}: {}\n", Reading::name_of(component), fmt::join(unread, ", "));
+      }
+    }
+    for (const LoadCase& load_case : reading_.model().load_cases) {
+      for (const Component& varied : load_case.components) {
+        const std::vector<std::string> unread = reading_.unread(varied);
+        const Component* component = reading_.model().find(varied.id);
+        if (unread.empty()) continue;
+        attributes["load case"] += static_cast<int>(unread.size());
+        all += fmt::format("  load case {}, {}: {}\n", load_case.id, Reading::name_of(component != nullptr ? *component : varied),
+                           fmt::join(unread, ", "));
       }
     }
     std::vector<std::string> words;
@@ -194,7 +182,7 @@ class Import {
   Reading& reading_;
   const RexsImportOptions& options_;
   StageParts parts_;
-  std::vector<ImportedTorque> torques_;  ///< one for each condition
+  LoadCases cases_;
   std::vector<ImportedGrid> grids_;
 };
 
@@ -236,6 +224,7 @@ UnitImport import_unit(const std::string& text, const std::string& name, const R
     all.stages.push_back({options.stage.value_or(1), import_stage(text, name, options)});
     return all;
   }
+  if (std::vector<StudyProblem> defects = find_defects(reading); !defects.empty()) throw StudyErrors(std::move(defects));
   std::vector<StudyProblem> reasons;  // of what is left out
   const auto leave_out = [&](const Component& stage, const std::string& value, const std::string& allowed) {
     all.left_out.push_back(Reading::name_of(stage) + ": " + value + ", allowed is " + allowed);

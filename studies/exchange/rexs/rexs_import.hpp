@@ -11,6 +11,7 @@ namespace flankwright::studies::rexs {
 struct RexsImportOptions {
   std::optional<int> stage{};                  ///< which of the file's stages, see find_stage()
   SlopeEnd slope_end{SlopeEnd::NonDatumFace};  ///< where a positive helix_slope removes
+  std::optional<double> hours{};               ///< life of the unit [h], > 0, instead of the file's operating_time
   std::string grid_stem{};                     ///< grids are called stem + "-pinion.csv", "-wheel.csv"
 };
 
@@ -41,7 +42,7 @@ struct UnitImport {
 
 /// All external cylindrical stages of a file, each as a study on the common unit. Gears of several meshes, as of planetary stages, are left out: by
 /// themselves they may be imported. Grids and lists are named by the stem and the stage, "unit-stage-2-pinion.csv", where there is more than one stage.
-/// @throws StudyErrors  as import_stage(), where no stage can be imported
+/// @throws StudyErrors  as import_stage(), where no stage can be imported; and with all defects of the unit, see find_defects(), where no stage is chosen
 UnitImport import_unit(const std::string& text, const std::string& name, const RexsImportOptions& options);
 /// "unit-stage-2"
 std::string stem_of_stage(const std::string& stem, int number);
@@ -50,7 +51,8 @@ std::string stem_of_stage(const std::string& stem, int number);
 ///
 /// @param text  of the file
 /// @param name  stands for it in messages and comments
-/// @throws StudyErrors with one problem where the file is damaged, or has no stage that a study could describe
+/// @throws StudyErrors with one problem where the file is damaged, or has no stage that a study could describe; with all defects of the part of the unit
+/// that turns with the stage, see find_defects(). Those of other parts are warned of.
 ImportedStudy import_stage(const std::string& text, const std::string& name, const RexsImportOptions& options);
 
 }  // namespace flankwright::studies::rexs

@@ -45,7 +45,7 @@ Statement first_of(const Condition& condition, std::vector<Statement> statements
   return first;
 }
 
-/// Size, signs and share of time. The flank only where the load case itself names it.
+/// Size and signs. The flank only where the load case itself names it.
 ImportedTorque torque_in(const Condition& condition, const StageParts& parts) {
   ImportedTorque found{.name = condition.name(), .load_case = condition.load_case()};
   std::vector<Statement> statements;
@@ -73,13 +73,6 @@ ImportedTorque torque_in(const Condition& condition, const StageParts& parts) {
     found.flank = *flank;
     found.flank_origin = FlankOrigin::Stated;
     found.flank_source = Reading::name_of(*data) + " loaded_tooth_flank of " + found.name;
-  }
-  if (condition.load_case() == nullptr) return found;
-  for (const Component& varied : condition.load_case()->components) {
-    const Component* component = condition.reading().model().find(varied.id);
-    if (component == nullptr || component->type != "gear_unit") continue;
-    // Per cent is the standard's unit: a bare number is one too.
-    if (const auto share = condition.reading().number(&varied, "operating_time_fraction", Dimension::None)) found.time_share = share->value;
   }
   return found;
 }

@@ -32,7 +32,6 @@ struct ImportedTorque {
   const LoadCase* load_case{nullptr};  ///< null: the model alone
   double torque{0.0};                  ///< its size [N mm], >= 0; 0: none, or not in the file
   std::string source{};                ///< what it came from
-  double time_share{0.0};              ///< operating_time_fraction, 0 .. 1; 0 where the file does not say
   WorkingFlank flank{};                ///< of the pinion, that it loads, see StageParts
   FlankOrigin flank_origin{FlankOrigin::Assumed};
   std::string flank_source{};  ///< in words

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -12,24 +11,13 @@
 #include "core/flank/measured_grid.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "studies/exchange/rexs/flank_parts.hpp"
+#include "studies/exchange/rexs/modification_list.hpp"
 #include "studies/exchange/rexs/relief_form.hpp"
+#include "studies/exchange/rexs/topography_text.hpp"
 
 namespace flankwright::studies::rexs {
 
 namespace {
-
-constexpr std::array<std::string_view, 12> modification_types{"tip_relief",
-                                                              "root_relief",
-                                                              "profile_slope",
-                                                              "profile_crowning",
-                                                              "helix_slope",
-                                                              "helix_crowning",
-                                                              "profile_twist",
-                                                              "end_relief_datum_face",
-                                                              "end_relief_non_datum_face",
-                                                              "triangular_tip_relief",
-                                                              "triangular_root_relief",
-                                                              "topographical_modification"};
 
 /// Equal to the digits that a unit leaves [mm].
 bool same_length(double a, double b) { return std::abs(a - b) <= 1e-9 * (1.0 + std::abs(a)); }
@@ -46,7 +34,7 @@ class ModificationReading {
 
   ImportedModification read() {
     if (parts_.flank == nullptr) return {};
-    for (const Component* component : modifications_of(*parts_.flank)) read(*component);
+    for (const Component* component : modifications_of(reading_, *parts_.flank)) read(*component);
     join_end_reliefs();
     lay_grid();
     if (parts_.other_flank != nullptr) compare_other_flank();
@@ -54,14 +42,6 @@ class ModificationReading {
   }
 
  private:
-  std::vector<const Component*> modifications_of(const Component& flank) const {
-    std::vector<const Component*> found;
-    for (const std::string_view type : modification_types) {
-      for (const Component* component : reading_.related(flank, {type})) found.push_back(component);
-    }
-    return found;
-  }
-
   void read(const Component& c) {
     reading_.word(&c, "is_additive_modification");  // they always add up here
     if (c.type == "tip_relief") return read_relief(c, true);
@@ -340,12 +320,11 @@ class ModificationReading {
     if (z->size() != amounts->size() || diameters->size() != amounts->size()) {
       return leave_out(c, "its coordinates, diameters and amounts are not one for each point");
     }
-    std::string grid = "# " + Reading::name_of(c) + "\nradius_mm,z_mm,deviation_um\n";
+    std::vector<TopographyPoint> points;
     for (std::size_t i = 0; i < amounts->size(); ++i) {
-      const double normal = -(*amounts)[i] * std::cos(base_helix_);
-      grid += fmt::format("{},{},{}\n", number_text(0.5 * (*diameters)[i]), number_text(parts_.datum_at_low_z ? (*z)[i] : -(*z)[i]),
-                          number_text(normal / units::um));
+      points.push_back({0.5 * (*diameters)[i], parts_.datum_at_low_z ? (*z)[i] : -(*z)[i], (*amounts)[i]});
     }
+    std::string grid = topography_text(points, Reading::name_of(c), base_helix_);
     try {
       const std::shared_ptr<const DeviationField> field = make_grid_field(parse_grid(grid, "points"), frame_.base_radius, base_helix_).field;
       add_part(c, [field, this](double r, double axial) { return field->at(gear_.roll_length_at(r), axial).value; });
@@ -384,8 +363,8 @@ class ModificationReading {
 
   /// Whether the flank at the back is modified alike is not a study's business, but not to be lost either.
   void compare_other_flank() {
-    const auto of_other = modifications_of(*parts_.other_flank);
-    const auto of_this = modifications_of(*parts_.flank);
+    const auto of_other = modifications_of(reading_, *parts_.other_flank);
+    const auto of_this = modifications_of(reading_, *parts_.flank);
     for (const Component* c : of_other) {
       if (std::ranges::find(of_this, c) == of_this.end()) back_.push_back(Reading::name_of(*c));
     }

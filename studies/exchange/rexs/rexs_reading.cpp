@@ -29,11 +29,13 @@ void Reading::refuse_attribute(const Component& component, std::string_view attr
 }
 
 double Reading::unit_of(const Component& component, const Attribute& attribute, Dimension dimension) const {
-  constexpr double standard_angle = units::deg, standard_torque = 1e3, standard_stiffness = 1e-3;
+  constexpr double standard_angle = units::deg, standard_torque = 1e3, standard_stiffness = 1e-3, standard_density = 1e3, standard_share = 0.01;
   if (attribute.unit.empty() || attribute.unit == "none") {
     return dimension == Dimension::Angle       ? standard_angle
            : dimension == Dimension::Torque    ? standard_torque
            : dimension == Dimension::Stiffness ? standard_stiffness
+           : dimension == Dimension::Density   ? standard_density
+           : dimension == Dimension::Share     ? standard_share
                                                : 1.0;
   }
   const std::optional<double> size = unit_size(attribute.unit, dimension);
@@ -57,7 +59,8 @@ std::optional<Taken> Reading::number(const Component* component, std::string_vie
   if (found == nullptr) return std::nullopt;
   read_.insert(found);
   if (found->text.empty()) return std::nullopt;
-  return Taken{value_of(*component, *found, found->text, unit_of(*component, *found, dimension)), name_of(*component) + " " + found->id};
+  const double offset = dimension == Dimension::Temperature ? unit_offset(found->unit) : 0.0;
+  return Taken{value_of(*component, *found, found->text, unit_of(*component, *found, dimension)) + offset, name_of(*component) + " " + found->id};
 }
 
 std::optional<Taken> Reading::first_of(const Component* component, std::initializer_list<std::string_view> attributes, Dimension dimension) {

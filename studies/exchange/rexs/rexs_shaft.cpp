@@ -139,9 +139,26 @@ class ShaftReading {
       note(bearing, "it has no radial_stiffness and is taken as rigid");
     }
     if (axial) held.axial_stiffness = finite(*axial);
+    take_absorption(bearing, held);
     held.tilting_stiffness = number(bearing, "bending_stiffness", Dimension::TiltingStiffness).value_or(0.0);
     result_.data.bearings.push_back(held);
     remark("bearings", bearing);
+  }
+
+  /// A study's bearing holds axial forces of both directions, or none.
+  void take_absorption(const Component& bearing, ShaftBearing& held) {
+    const Attribute* absorption = bearing.find("axial_force_absorption");
+    if (absorption == nullptr) return;
+    if (absorption->text == "both_directions") {
+      reading_.word(&bearing, absorption->id);
+      if (!(held.axial_stiffness > 0.0)) held.axial_stiffness = std::numeric_limits<double>::infinity();
+    } else if (absorption->text == "no_direction") {
+      reading_.word(&bearing, absorption->id);
+      if (held.axial_stiffness > 0.0) note(bearing, "its axial_stiffness is not taken, as it supports no axial force");
+      held.axial_stiffness = 0.0;
+    } else {
+      note(bearing, fmt::format("that it supports axial forces of the {} direction alone is not taken", absorption->text));
+    }
   }
 
   void read_positions() {

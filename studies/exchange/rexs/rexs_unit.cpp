@@ -10,8 +10,13 @@
 #include <utility>
 
 #include "core/base/units.hpp"
+#include "core/compliance/shaft/shaft_pair.hpp"
 #include "core/compliance/shaft/unit_checks.hpp"
 #include "core/compliance/shaft/unit_statics.hpp"
+#include "core/compliance/shaft/unit_supports.hpp"
+#include "studies/exchange/rexs/rexs_errors.hpp"
+#include "studies/exchange/rexs/rexs_unit_part.hpp"
+#include "studies/exchange/rexs/unit_scaling.hpp"
 #include "studies/study/study_errors.hpp"
 
 namespace flankwright::studies::rexs {
@@ -20,10 +25,28 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// With what a study's reader adds.
+ShaftsOfPair completed(ShaftsOfPair all) {
+  const auto complete = [&](ShaftData& shaft) {
+    if (std::isnan(shaft.material.youngs_modulus)) shaft.material.youngs_modulus = Material{}.youngs_modulus;
+    if (std::isnan(shaft.material.poissons_ratio)) shaft.material.poissons_ratio = Material{}.poissons_ratio;
+    const bool held = std::ranges::any_of(shaft.bearings, [](const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; });
+    if (!shaft.bearings.empty() && !held) shaft.bearings.front().axial_stiffness = std::numeric_limits<double>::infinity();
+  };
+  for (const Member m : {Member::Pinion, Member::Wheel}) complete(*all.shaft[m]);
+  for (ShaftData& shaft : all.unit.shafts) complete(shaft);
+  return all;
+}
+
 class UnitReading {
  public:
   UnitReading(Reading& reading, const StageParts& parts, const GearPair& pair, const ImportedTorque& reference)
-      : reading_(reading), parts_(parts), pair_(pair), reference_(reference), condition_(reading, reference.load_case) {
+      : reading_(reading),
+        parts_(parts),
+        pair_(pair),
+        reference_(reference),
+        condition_(reading, reference.load_case),
+        part_(part_around(reading, *parts.stage)) {
     const std::array<double, 3> u = u_axis(reading, *parts.gears[0].gear);
     z_ = Vector3d(u[0], u[1], u[2]).normalized();
   }
@@ -40,15 +63,55 @@ class UnitReading {
     for (const auto& [id, shaft] : shafts_) read_joints(id);
     settle_bearings();
     settle_torques();
-    const std::vector<InvalidInput> problems = find_problems(completed(), pair_);
+    const std::vector<InvalidInput> problems = find_problems(completed(result_.shafts), pair_);
     if (!problems.empty()) {
-      throw LeftOut{fmt::format("{} = {}: allowed is {}", problems.front().field(), problems.front().value(), problems.front().allowed())};
+      refuse_mechanism();
+      throw LeftOut{
+          fmt::format("{} = {}: allowed is {}", in_terms_of_file(problems.front().field()), problems.front().value(), problems.front().allowed())};
     }
-    for (const std::string& note : notes_) reading_.warn(note);
     return std::move(result_);
   }
 
+  /// What is to be said of the unit that was read.
+  const std::vector<std::string>& notes() const { return notes_; }
+
  private:
+  /// Shafts that support each other alone, which nothing holds; what nothing holds along or about its axis may only be incomplete.
+  void refuse_mechanism() {
+    const ShaftsOfPair whole = completed(result_.shafts);
+    std::vector<double> lengths;
+    for (const ShaftData* shaft : whole.all()) lengths.push_back(shaft->length());
+    if (std::ranges::any_of(lengths, [](double length) { return !(length > 0.0); })) return;
+    const std::optional<LooseMotion> loose = find_loose_motion(lengths, make_supports(whole).supports);
+    const auto is_whole = [](double part) { return std::abs(part) == 1.0; };  // the largest part, see LooseMotion
+    if (!loose || is_whole(loose->translation.z()) || is_whole(loose->turn.z())) return;
+    const std::string name = whole.names()[static_cast<std::size_t>(loose->beam)];
+    const auto found = std::ranges::find_if(shafts_, [&](const auto& shaft) { return name_of_shaft(shaft.first) == name; });
+    const Component& shaft = *reading_.model().find(found->first);
+    refuse(reading_.file(), shaft.line, full_name(shaft), "a shaft that can move as a rigid body",
+           "bearings that hold it across its axis and against tilting, by themselves or through the shafts that they sit on");
+  }
+
+  /// A field of find_problems() with the component in place of the study's table.
+  std::string in_terms_of_file(const std::string& field) const {
+    std::vector<std::pair<std::string, std::string>> names;
+    for (const Member m : {Member::Pinion, Member::Wheel})
+      names.emplace_back(std::string(flankwright::name_of(m)) + ".shaft", full_name(*parts_[m].shaft));
+    const auto add = [&](const char* table, const std::vector<std::string>& components) {
+      for (std::size_t i = 0; i < components.size(); ++i) names.emplace_back(fmt::format("unit.{}.{}", table, i), components[i]);
+    };
+    add("shafts", result_.shaft_remarks);
+    add("loads", result_.load_remarks);
+    add("joints", result_.joint_remarks);
+    std::vector<std::string> meshes;
+    for (const UnitMesh& mesh : result_.shafts.unit.meshes) meshes.push_back(mesh.name);
+    add("meshes", meshes);
+    for (const auto& [table, name] : names) {
+      if (field == table || field.starts_with(table + ".")) return name + ": " + field.substr(std::min(field.size(), table.size() + 1));
+    }
+    return field;
+  }
+
   std::string name_of_shaft(int id) const {
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       if (parts_[m].shaft->id == id) return flankwright::name_of(m);
@@ -63,7 +126,7 @@ class UnitReading {
 
   void read_shafts() {
     for (const Component& component : reading_.model().components) {
-      if (component.type != "shaft") continue;
+      if (component.type != "shaft" || !part_.shafts.contains(component.id)) continue;
       const std::array<double, 3> u = u_axis(reading_, component);
       const double along = Vector3d(u[0], u[1], u[2]).normalized().dot(z_);
       constexpr double parallel = 1e-6;  // 1 - |cos| at most: 0.08 deg
@@ -147,10 +210,6 @@ class UnitReading {
       }
       result_.shafts.unit.loads.push_back({name_of_shaft(shaft.id), bare.place(place->value), in_frame(force), in_frame(moment)});
       result_.load_remarks.push_back(Reading::name_of(*load));
-      if (reading_.model().load_cases.size() > 1) {
-        notes_.push_back("forces of external loads are those of " + reference_.name +
-                         "; with the torque of the other cases they scale, whatever the file has there");
-      }
     }
   }
 
@@ -166,8 +225,8 @@ class UnitReading {
   }
 
   void add_mesh(const Relation& relation) {
-    const auto id = relation.role("stage");
-    if (!id || *id == parts_.stage->id) return;
+    const auto id = relation.role("stage"), gear = relation.role("gear_1");
+    if (!id || *id == parts_.stage->id || (gear && !part_.gears.contains(*gear))) return;
     const std::string name = Reading::name_of(reading_.in_role(relation, "stage"));
     try {
       StageParts parts = parts_of_other(relation, name);
@@ -212,7 +271,7 @@ class UnitReading {
     result_.mesh_remarks.back()["torque_1"] = torque.source;
   }
 
-  bool are_torques_settled() { return torque_balance(completed(), pair_).determined; }
+  bool are_torques_settled() { return torque_balance(completed(result_.shafts), pair_).determined; }
 
   /// Torques of meshes where the balance of the shafts leaves them open, and only there: from others it follows.
   void settle_torques() {
@@ -223,10 +282,6 @@ class UnitReading {
       const double given = std::exchange(mesh.torque, not_given);
       if (are_torques_settled()) continue;
       mesh.torque = given;
-      if (!std::isnan(given) && reading_.model().load_cases.size() > 1) {
-        notes_.push_back("the torque of " + mesh.name + " is that of " + reference_.name +
-                         "; with the torque of the other cases it scales, whatever the file has there");
-      }
     }
   }
 
@@ -257,25 +312,12 @@ class UnitReading {
     }
   }
 
-  /// With what a study's reader adds.
-  ShaftsOfPair completed() {
-    ShaftsOfPair all = result_.shafts;
-    const auto complete = [&](ShaftData& shaft) {
-      if (std::isnan(shaft.material.youngs_modulus)) shaft.material.youngs_modulus = Material{}.youngs_modulus;
-      if (std::isnan(shaft.material.poissons_ratio)) shaft.material.poissons_ratio = Material{}.poissons_ratio;
-      const bool held = std::ranges::any_of(shaft.bearings, [](const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; });
-      if (!shaft.bearings.empty() && !held) shaft.bearings.front().axial_stiffness = std::numeric_limits<double>::infinity();
-    };
-    for (const Member m : {Member::Pinion, Member::Wheel}) complete(*all.shaft[m]);
-    for (ShaftData& shaft : all.unit.shafts) complete(shaft);
-    return all;
-  }
-
   Reading& reading_;
   const StageParts& parts_;
   const GearPair& pair_;
   const ImportedTorque& reference_;
   Condition condition_;
+  UnitPart part_;
   Vector3d x_{Vector3d::Zero()}, y_{Vector3d::Zero()}, z_{Vector3d::Zero()};
   std::map<int, BareShaft> shafts_;    ///< by id
   std::vector<double> known_torques_;  ///< on the first gear of each mesh by its shaft, about z [N mm]; not given: the file does not say
@@ -283,31 +325,41 @@ class UnitReading {
   ImportedUnit result_;
 };
 
-/// Whether the stage's gears have other meshes, or its shafts carry other gears or run in other shafts.
-bool is_in_unit(const Reading& reading, const StageParts& parts) {
-  for (const GearParts& gear : parts.gears) {
-    if (gear.shaft == nullptr || reading.related(*gear.shaft, {"shaft_section"}).empty()) return false;
-  }
-  for (const GearParts& gear : parts.gears) {
-    if (meshes_of(reading, *gear.gear) > 1 || reading.related(*gear.shaft, {"cylindrical_gear"}).size() > 1) return true;
-    for (const Relation& relation : reading.model().relations) {
-      if (relation.role("inner_part") != gear.shaft->id && relation.role("outer_part") != gear.shaft->id) continue;
-      for (const char* side : {"inner_part", "outer_part"}) {
-        const auto id = relation.role(side);
-        const Component* other = id ? reading.model().find(*id) : nullptr;
-        if (other != nullptr && other != gear.shaft && other->type == "shaft") return true;
-      }
+/// What the other conditions' loads from outside change.
+void read_other_cases(Reading& reading, const StageParts& parts, const GearPair& pair, const ImportedTorque& reference,
+                      const std::vector<ImportedTorque>& torques, ImportedUnit& unit) {
+  const auto misalignment_of = [&](const ShaftsOfPair& shafts, double torque) {
+    const PerGear<GearBodyIn> bodies{GearBodyIn::Structure, GearBodyIn::Structure};
+    return ShaftPair(pair, completed(shafts), bodies).state(torque).mesh_misalignment;
+  };
+  for (const ImportedTorque& torque : torques) {
+    if (torque.load_case == reference.load_case || !(torque.torque > 0.0) || torque.flank != reference.flank) continue;
+    try {
+      const ImportedUnit other = UnitReading(reading, parts, pair, torque).read();
+      if (are_scaled(other.shafts.unit, unit.shafts.unit)) continue;
+      const double added = misalignment_of(other.shafts, torque.torque) - misalignment_of(unit.shafts, torque.torque);
+      unit.misalignment[torque.load_case] = added;
+      reading.warn(
+          fmt::format("{}: its loads from outside are not those of {} scaled with the torque, as a study has them; the {:.3g} um of misalignment by "
+                      "the difference are taken, bearing forces and bending within the face are not",
+                      torque.name, reference.name, added / units::um));
+    } catch (const LeftOut& left_out) {
+      reading.warn(fmt::format("{}: its loads from outside are not taken but those of {}, {}", torque.name, reference.name, left_out.why));
     }
   }
-  return false;
 }
 
 }  // namespace
 
-std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const ImportedTorque& reference) {
+std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const std::vector<ImportedTorque>& torques) {
   if (!is_in_unit(reading, parts) || stages_of(reading).size() < 2) return std::nullopt;
+  const ImportedTorque& reference = reference_of(torques);
   try {
-    return UnitReading(reading, parts, pair, reference).read();
+    UnitReading of_reference(reading, parts, pair, reference);
+    ImportedUnit unit = of_reference.read();
+    for (const std::string& note : of_reference.notes()) reading.warn(note);
+    read_other_cases(reading, parts, pair, reference, torques, unit);
+    return unit;
   } catch (const LeftOut& left_out) {
     reading.warn("the unit around the stage: not taken, " + left_out.why);
     return std::nullopt;

@@ -15,7 +15,7 @@ struct Unit {
 };
 
 using enum Dimension;
-constexpr std::array<Unit, 47> known_units{{{None, "none", 1.0},
+constexpr std::array<Unit, 66> known_units{{{None, "none", 1.0},
                                             {Force, "N", 1.0},
                                             {Force, "kN", 1e3},
                                             {None, "", 1.0},
@@ -61,7 +61,29 @@ constexpr std::array<Unit, 47> known_units{{{None, "none", 1.0},
                                             {Stiffness, "N/mum", 1e3},
                                             {Stiffness, "kN/mm", 1e3},
                                             {TiltingStiffness, "Nmm/rad", 1.0},
-                                            {TiltingStiffness, "Nm/rad", 1e3}}};
+                                            {TiltingStiffness, "Nm/rad", 1e3},
+                                            {Share, "%", 0.01},
+                                            {Share, "1/100", 0.01},
+                                            {Time, "h", 1.0},
+                                            {Time, "min", 1.0 / 60.0},
+                                            {Time, "s", 1.0 / 3600.0},
+                                            {Time, "d", 24.0},
+                                            {Temperature, "C", 1.0},
+                                            {Temperature,
+                                             "\xc2\xb0"
+                                             "C",
+                                             1.0},
+                                            {Temperature, "degC", 1.0},
+                                            {Temperature, "K", 1.0},
+                                            {Viscosity, "mm^2/s", 1.0},
+                                            {Viscosity, "mm2/s", 1.0},
+                                            {Viscosity, "mm\xc2\xb2/s", 1.0},
+                                            {Viscosity, "cSt", 1.0},
+                                            {Viscosity, "m^2/s", 1e6},
+                                            {Density, "kg/dm^3", 1e3},
+                                            {Density, "kg/m^3", 1.0},
+                                            {Density, "g/cm^3", 1e3},
+                                            {Density, "kg/l", 1e3}}};
 
 }  // namespace
 
@@ -77,6 +99,8 @@ std::optional<double> unit_size(std::string_view unit, Dimension dimension) {
   }
   return std::nullopt;
 }
+
+double unit_offset(std::string_view unit) { return unit == "K" ? -273.15 : 0.0; }
 
 std::string units_in_words(Dimension dimension) {
   std::string words;

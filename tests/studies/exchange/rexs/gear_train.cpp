@@ -46,18 +46,33 @@ int GearTrain::bare_shaft(double y, double z) {
   return add("shaft", {vector("u_axis_vector", 1, 0, 0), vector("w_axis_vector", 0, 0, 1), vector("support_vector", 0, y, z)});
 }
 
-int GearTrain::shaft(double y, double z) {
+int GearTrain::shaft(double y, double z) { return shaft_on(y, z, {20.0, 280.0}); }
+
+int GearTrain::shaft_on(double y, double z, const std::vector<double>& bearings) {
   const int shaft = bare_shaft(y, z);
   relate("assembly", {{shaft, "assembly"},
                       {add("shaft_section", {number("u_coordinate_on_shaft", 0, "mm"), number("length", shaft_length, "mm"),
                                              number("outer_diameter_begin", 50, "mm"), number("outer_diameter_end", 50, "mm")}),
                        "part"}});
-  for (const double at : {20.0, 280.0}) {
+  for (const double at : bearings) {
     Attributes bearing{number("u_coordinate_on_shaft_inner_side", at, "mm"), number("radial_stiffness", 8e8, "N / m")};
     if (at < 100.0) bearing.push_back(number("axial_stiffness", 3e8, "N / m"));
     relate("side", {{add("concept_bearing", bearing), "assembly"}, {shaft, "inner_part"}, {casing_, "outer_part"}});
   }
   return shaft;
+}
+
+int GearTrain::unit(const Attributes& attributes) { return add("gear_unit", attributes); }
+
+int GearTrain::lubricant(const Attributes& attributes) {
+  const int oil = add("lubricant", attributes);
+  relate("reference", {{casing_, "origin"}, {oil, "referenced"}});
+  return oil;
+}
+
+int GearTrain::last(const std::string& type) const {
+  const auto found = std::ranges::find(model_.components.rbegin(), model_.components.rend(), type, &rexs::Component::type);
+  return found->id;
 }
 
 int GearTrain::load(int shaft, double at, const Attributes& attributes) {
@@ -69,13 +84,17 @@ int GearTrain::load(int shaft, double at, const Attributes& attributes) {
 }
 
 int GearTrain::gear(int shaft, double at, int teeth, double module, std::optional<double> helix_deg, const Attributes& more) {
+  const int gear = loose_gear(at, teeth, module, helix_deg);
+  for (const rexs::Attribute& attribute : more) set(gear, attribute);
+  relate("assembly", {{shaft, "assembly"}, {gear, "part"}});
+  return gear;
+}
+
+int GearTrain::loose_gear(double at, int teeth, double module, std::optional<double> helix_deg) {
   Attributes all{number("number_of_teeth", teeth), number("normal_module", module, "mm"), number("face_width", 40, "mm"),
                  number("u_coordinate_on_shaft", at, "mm")};
   if (helix_deg) all.push_back(number("helix_angle_reference_diameter", *helix_deg, "deg"));
-  all.insert(all.end(), more.begin(), more.end());
-  const int gear = add("cylindrical_gear", all);
-  relate("assembly", {{shaft, "assembly"}, {gear, "part"}});
-  return gear;
+  return add("cylindrical_gear", all);
 }
 
 void GearTrain::flanks(int gear, const std::string& type, const Attributes& attributes) {

@@ -24,6 +24,17 @@ class GearTrain {
   int shaft(double y, double z);
   /// The same without sections and bearings, so that nothing describes how it bends.
   int bare_shaft(double y, double z);
+  /// A shaft of 300 mm with bearings at these places.
+  int shaft_on(double y, double z, const std::vector<double>& bearings);
+  /// A gear that no shaft carries, see gear().
+  int loose_gear(double at, int teeth, double module, std::optional<double> helix_deg);
+  /// The unit that the parts belong to, whose times a load case states.
+  int unit(const Attributes& attributes = {});
+  int casing() const { return casing_; }
+  /// An oil in the casing.
+  int lubricant(const Attributes& attributes);
+  /// Id of the component of a type that was added last.
+  int last(const std::string& type) const;
   int load(int shaft, double at, const Attributes& attributes);
   /// Face widths are 40 mm.
   /// @param helix_deg  + is right-handed; nothing: not in the file
