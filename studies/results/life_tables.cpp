@@ -28,13 +28,14 @@ struct LifeColumn {
   double CaseLifeErrors::*error{nullptr};  ///< null: none is estimated
 };
 
-constexpr std::array<LifeColumn, 11> life_columns{{
+constexpr std::array<LifeColumn, 12> life_columns{{
     {"cycles", "pinion", "{:.3g}", [](const CaseLife&, const LoadedResult& l) { return l.operation.revolutions; }},
     {"contact", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.contact_damage); }},
     {"root", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.root_damage); }},
     {"contact", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.contact_safety); }},
     {"root", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.root_safety); }},
     {"S_H", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_contact_safety); }},
+    {"S_F", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_root_safety); }},
     {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }, &CaseLifeErrors::loss_factor},
     {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }, &CaseLifeErrors::loss_power},
     {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }, &CaseLifeErrors::film},
@@ -104,11 +105,12 @@ std::string life_table(const StudyResults& results, std::size_t width) {
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
-  const bool has_safety = std::ranges::any_of(life.cases, [](const CaseLife& c) { return !std::isnan(least_safety(c.iso_contact_safety)); });
+  const bool has_safety = std::ranges::any_of(
+      life.cases, [](const CaseLife& c) { return !std::isnan(least_safety(c.iso_contact_safety)) || !std::isnan(least_safety(c.iso_root_safety)); });
   const bool by_method_c = std::ranges::any_of(life.cases, [](const CaseLife& c) { return !c.K_from_contact; });
   if (has_safety && by_method_c) {
     out +=
-        "S_H: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment and for which rims on webs do not tilt; an analysis of the design has K_H of the "
+        "S_H, S_F: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment and for which rims on webs do not tilt; an analysis of the design has K_H of the "
         "loaded contact\n";
   }
   for (const Member m : each_gear) out += grade_line(results.study.life, m);
