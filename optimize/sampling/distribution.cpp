@@ -88,21 +88,6 @@ Distribution Distribution::grid(double low, double high, int n) {
   return values(std::move(levels));
 }
 
-Distribution::Limits Distribution::limits(double deviations) const {
-  assert(deviations > 0.0);
-  switch (kind_) {
-    case Kind::Normal:
-      return {mean_ - deviations * deviation_, mean_ + deviations * deviation_};
-    case Kind::TruncatedNormal:
-    case Kind::Uniform:
-      return {low_, high_};
-    case Kind::Values:
-      break;
-  }
-  const auto [least, most] = std::ranges::minmax(values_);
-  return {least, most};
-}
-
 double Distribution::quantile(double u) const {
   assert(u > 0.0 && u < 1.0);
   switch (kind_) {

@@ -38,12 +38,6 @@ class Distribution {
   /// @param u  0 < u < 1
   double quantile(double u) const;
   double median() const { return quantile(0.5); }
-  struct Limits {
-    double low, high;
-  };
-  /// Smallest and largest value. A normal distribution has none: mean -+ `deviations` standard deviations.
-  /// @param deviations  > 0
-  Limits limits(double deviations) const;
 
   bool operator==(const Distribution&) const = default;
 

@@ -84,19 +84,31 @@ Json traces_json(const std::vector<FlankTrace>& traces, const char* at, const ch
   });
 }
 
+/// Least and largest value of what scatters, in its own unit.
+std::pair<double, double> limits_of(const Distribution& distribution) {
+  // A normal distribution has none. As for slopes within a class, three standard deviations are the tolerance.
+  static const double beyond = normal_probability(-3.0);
+  constexpr double at_the_end = 1e-12;
+  const bool is_normal = distribution.kind() == Distribution::Kind::Normal;
+  std::pair limits{distribution.quantile(is_normal ? beyond : at_the_end), distribution.quantile(1.0 - (is_normal ? beyond : at_the_end))};
+  for (int level = 0; level < distribution.levels(); ++level) {  // of listed values, in any order
+    const double value = distribution.quantile((level + 0.5) / distribution.levels());
+    limits = {std::min(limits.first, value), std::max(limits.second, value)};
+  }
+  return limits;
+}
+
 /// Tolerances of a gear's modification that the study gives by itself; those of its class are in the band of the class.
 std::vector<AmountTolerance> given_tolerances(const Study& study, Member member, const Modification& modification) {
-  // As for slopes within a class: three standard deviations are the tolerance.
-  constexpr double deviations = 3.0;
   const std::string table = std::string(name_of(member)) + ".modification.";
   std::vector<AmountTolerance> all;
   for (const SceneTolerance& tolerance : study.optimise.assessment.tolerances) {
     if (tolerance.of_class || !tolerance.path.starts_with(table)) continue;
     const ModificationDescriptor* d = find_parameter(std::string_view(tolerance.path).substr(table.size()));
     if (d == nullptr) continue;
-    const Distribution::Limits limits = tolerance.distribution.limits(deviations);
+    const auto [low, high] = limits_of(tolerance.distribution);
     const double unit = 1.0 / outside_factor(d->kind), design = tolerance.added ? 0.0 : d->get(modification);
-    all.push_back({std::string(d->key), limits.low * unit - design, limits.high * unit - design});
+    all.push_back({std::string(d->key), low * unit - design, high * unit - design});
   }
   return all;
 }
