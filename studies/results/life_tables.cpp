@@ -28,13 +28,14 @@ struct LifeColumn {
   double CaseLifeErrors::*error{nullptr};  ///< null: none is estimated
 };
 
-constexpr std::array<LifeColumn, 11> life_columns{{
+constexpr std::array<LifeColumn, 12> life_columns{{
     {"cycles", "pinion", "{:.3g}", [](const CaseLife&, const LoadedResult& l) { return l.operation.revolutions; }},
     {"contact", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.contact_damage); }},
     {"root", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.root_damage); }},
     {"contact", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.contact_safety); }},
     {"root", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.root_safety); }},
     {"S_H", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_contact_safety); }},
+    {"S_F", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_root_safety); }},
     {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }, &CaseLifeErrors::loss_factor},
     {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }, &CaseLifeErrors::loss_power},
     {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }, &CaseLifeErrors::film},
@@ -73,14 +74,16 @@ std::string grade_line(const LifeTable& life, Member m) {
 
 /// Which load factors S_H and S_F have, where they are not those of the loaded contact.
 std::string load_factor_line(const std::vector<CaseLife>& cases) {
-  const auto has_safety = [](const CaseLife& c) { return !std::isnan(least_safety(c.iso_contact_safety)); };
+  const auto has_safety = [](const CaseLife& c) {
+    return !std::isnan(least_safety(c.iso_contact_safety)) || !std::isnan(least_safety(c.iso_root_safety));
+  };
   const auto of_contact = std::ranges::count_if(cases, [&](const CaseLife& c) { return has_safety(c) && c.K_from_contact; });
   const auto rated = std::ranges::count_if(cases, has_safety);
   if (of_contact == rated) return {};
   return fmt::format(
       "{}: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment and for which rims on webs do not tilt; cycle.peaks = \"refined\" takes "
       "K_H of the loaded contact\n",
-      of_contact > 0 ? "S_H of the load cases that do not govern" : "S_H");
+      of_contact > 0 ? "S_H, S_F of the load cases that do not govern" : "S_H, S_F");
 }
 
 }  // namespace

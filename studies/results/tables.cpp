@@ -1,5 +1,6 @@
 #include "studies/base/csv.hpp"
 #include "studies/results/drawing.hpp"
+#include "studies/results/drawing_sheet.hpp"
 #include "studies/results/tables.hpp"
 
 #include <fmt/format.h>

@@ -29,7 +29,7 @@ function build_drawing(results, body) {
     figure(grid, {
       title: capital(`${entry.gear}`),
       wide: true,
-      caption: `Design traces with the band of class ${fmt(entry.iso_1328_class, 2)} of ISO 1328-1: the middle trace and half of the total tolerance either way. `
+      caption: `Each design trace with its band of class ${fmt(entry.iso_1328_class, 2)} of ISO 1328-1: half of the total tolerance either way, and the tolerances of the amounts. `
         + `drawing-${entry.gear}.svg in the results folder is the same sheet.`,
     }, (plot) => {
       // The sheet is made by the program from numbers and names of its own; it is parsed as a picture, so that nothing in it runs.

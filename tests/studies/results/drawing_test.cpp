@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <sstream>
 
+#include "core/flank/natural_twist.hpp"
 #include "studies/results/drawing.hpp"
+#include "studies/results/drawing_sheet.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/study_texts.hpp"
 
@@ -25,7 +28,7 @@ FlankDrawing crowned(int tolerance_class) {
   Modification m;
   set(m, parameter_of("lead_crowning"), 8.0 * units::um);
   set(m, parameter_of("profile_crowning"), 5.0 * units::um);
-  return make_drawing(make_gear_pair(study.pair), Member::Pinion, m, tolerance_class);
+  return make_drawing(make_gear_pair(study.pair), Member::Pinion, m, {.tolerance_class = tolerance_class});
 }
 
 TEST_CASE("The band of a K-chart is as wide as the total tolerance of the class", "[studies][drawing]") {
@@ -67,16 +70,145 @@ TEST_CASE("A drawing has the amounts that were set, and the shape of a relief", 
   set(m, parameter_of("tip_relief.height"), 2.0);
   set(m, parameter_of("lead_crowning"), 5.831724 * units::um);
   const auto line_with = [&](const std::string& name) {
-    for (const std::string& line : make_drawing(make_gear_pair(study.pair), Member::Pinion, m, 6).lines) {
+    for (const std::string& line : make_drawing(make_gear_pair(study.pair), Member::Pinion, m, {.tolerance_class = 6}).lines) {
       if (line.find(name) != std::string::npos) return line;
     }
     return std::string("no line with " + name);
   };
   CHECK(line_with("tip relief =").ends_with("tip relief = 7.25 µm"));  // a step of 0.25 um
   CHECK(line_with("tip relief height").ends_with("= 2.00 mm"));
-  CHECK(line_with("lead crowning").ends_with("= 5.8 µm"));  // no multiple of a grinder's step
+  CHECK_THAT(line_with("lead crowning"), Catch::Contains("= 5.8 ± "));  // no multiple of a grinder's step
   m.tip_relief.shape = ReliefShape::Parabolic;
   CHECK(line_with("tip relief =").ends_with("tip relief = 7.25 µm, parabolic"));
+}
+
+/// A helical pair, 25:61, of 45 mm of face.
+GearPair helical() {
+  PairData data;
+  data.normal_module = 3.5;
+  data.helix_angle = 22.0 * units::deg;
+  data.pinion.teeth = 25;
+  data.pinion.face_width = 45.0;
+  data.wheel.teeth = 61;
+  data.wheel.face_width = 45.0;
+  return make_gear_pair(data);
+}
+
+/// Ground by generating, with a lead slope and crowning [um].
+Modification ground(double slope, double crowning) {
+  Modification m;
+  set(m, parameter_of("lead_slope"), slope * units::um);
+  set(m, parameter_of("lead_crowning"), crowning * units::um);
+  m.process.kind = GrindingKind::GeneratingGrinding;
+  return m;
+}
+
+/// The first line that contains a text, and the one below it.
+std::pair<std::string, std::string> lines_with(const FlankDrawing& drawing, const std::string& text) {
+  const auto at = std::ranges::find_if(drawing.lines, [&](const std::string& line) { return line.find(text) != std::string::npos; });
+  if (at == drawing.lines.end()) return {"no line with " + text, ""};
+  return {*at, at + 1 == drawing.lines.end() ? "" : *(at + 1)};
+}
+
+double number_behind(const std::string& line, const std::string& mark) { return std::stod(line.substr(line.find(mark) + mark.size())); }
+
+TEST_CASE("Each trace of a flank that its process twists lies in the middle of its own band", "[studies][drawing]") {
+  const std::string svg = drawing_svg(make_drawing(helical(), Member::Pinion, ground(0.0, 20.0), {.tolerance_class = 6}));
+  std::vector<double> tips;  // of the profile traces [px]
+  std::size_t at = svg.find("<g id=\"profile\"");
+  for (int trace = 0; trace < 6; ++trace) {
+    CAPTURE(trace);
+    at = svg.find("class=\"band\"", at);
+    REQUIRE(at != std::string::npos);
+    const auto band = points_of(svg, "class=\"band\"", at), line = points_of(svg, "class=\"trace\"", at);
+    REQUIRE(band.size() == 2 * line.size());
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      // Coordinates have three decimals.
+      CHECK(0.5 * (band[i].second + band[band.size() - 1 - i].second) == Approx(line[i].second).margin(0.0015));
+      CHECK(band[i].second < line[i].second);
+    }
+    if (trace < 3) tips.push_back(line.back().second - line.front().second);
+    ++at;
+  }
+  // The twist is seen: the end traces slope to opposite sides, each as much as the other.
+  CHECK(tips[0] * tips[2] < 0.0);
+  CHECK(tips[0] == Approx(-tips[2]).epsilon(0.02));  // what crowning adds at the ends is even
+}
+
+TEST_CASE("A drawing states what grinding brings with a lead slope and with crowning, by the formulae of generating grinding",
+          "[studies][drawing][closed-form]") {
+  const GearPair pair = helical();
+  const double shift = std::tan(pair.base_helix_angle) *
+                       (pair.pinion.roll_length_at(pair.pinion.tip_form_radius) - pair.pinion.roll_length_at(pair.pinion.active_root_radius)) / 45.0;
+  constexpr double decimal = 0.051;  // um: amounts have one decimal
+  const FlankDrawing sloped = make_drawing(pair, Member::Pinion, ground(14.0, 0.0), {.tolerance_class = 6});
+  const auto [slope, why] = lines_with(sloped, "C_Hα, profile slope");
+  // C_Hbeta tan(beta_b) g_alpha/b
+  CHECK(std::abs(number_behind(slope, "= ")) == Approx(14.0 * shift).margin(decimal));
+  CHECK_THAT(slope, Catch::Contains("+ removes at the tip"));
+  CHECK_THAT(why, Catch::Contains("grinding process"));
+  CHECK(number_behind(lines_with(sloped, "C_Hβ, lead slope").first, "= ") == Approx(14.0).margin(decimal));
+
+  const FlankDrawing crowned = make_drawing(pair, Member::Pinion, ground(0.0, 20.0), {.tolerance_class = 6});
+  const auto twist = lines_with(crowned, "S_α, twist").first;
+  // 8 C_beta tan(beta_b) g_alpha/b, and a profile crowning of C_beta (tan(beta_b) g_alpha/b)^2
+  CHECK(std::abs(number_behind(twist, "= ")) == Approx(8.0 * 20.0 * shift).margin(decimal));
+  CHECK(number_behind(twist, "= ") == Approx(natural_twist(pair, Member::Pinion, ground(0.0, 20.0)) / units::um).margin(decimal));
+  CHECK(number_behind(lines_with(crowned, "C_α, profile crowning").first, "= ") == Approx(20.0 * shift * shift).margin(decimal));
+
+  // A profile slope that is set against it leaves nothing of it.
+  Modification corrected = ground(14.0, 0.0);
+  set(corrected, parameter_of("profile_slope"), -number_behind(slope, "= ") * units::um);
+  const auto rest = lines_with(make_drawing(pair, Member::Pinion, corrected, {.tolerance_class = 6}), "C_Hα, profile slope");
+  CHECK(number_behind(rest.first, "= ") == Approx(0.0).margin(decimal));
+  CHECK_THAT(rest.second, Catch::Contains("set ") && Catch::Contains("brings "));
+}
+
+TEST_CASE("The band of an amount is written beside it and widens the K-chart where the amount removes", "[studies][drawing]") {
+  const GearPair pair = helical();
+  Modification m;
+  set(m, parameter_of("tip_relief.amount"), 22.0 * units::um);
+  set(m, parameter_of("tip_relief.height"), 2.0);
+  const DrawingTerms terms{.tolerance_class = 6, .amounts = {{"tip_relief.amount", -3.0 * units::um, 3.0 * units::um}}};
+  const FlankDrawing drawing = make_drawing(pair, Member::Pinion, m, terms);
+  CHECK_THAT(lines_with(drawing, "tip relief =").first, Catch::Contains("C_αa, tip relief = 22.0 ± 3.0 µm"));
+  const FlankTrace& profile = drawing.profiles[1];
+  constexpr double round_off = 1e-12;  // mm
+  CHECK(profile.high.front() - profile.low.front() == Approx(drawing.tolerances.profile_total).margin(round_off));
+  CHECK(profile.high.back() - profile.low.back() == Approx(drawing.tolerances.profile_total + 6.0 * units::um).margin(round_off));
+  // More may be removed than added.
+  const DrawingTerms uneven{.tolerance_class = 6, .amounts = {{"tip_relief.amount", -1.0 * units::um, 4.0 * units::um}}};
+  const FlankDrawing other = make_drawing(pair, Member::Pinion, m, uneven);
+  CHECK_THAT(lines_with(other, "tip relief =").first, Catch::Contains("22.0 +4.0 -1.0 µm"));
+  CHECK(other.profiles[1].deviation.back() - other.profiles[1].low.back() ==
+        Approx(0.5 * other.tolerances.profile_total + 4.0 * units::um).margin(round_off));
+}
+
+TEST_CASE("A relief begins at a diameter and a roll length that are the same point", "[studies][drawing]") {
+  const GearPair pair = helical();
+  Modification m;
+  set(m, parameter_of("tip_relief.amount"), 22.0 * units::um);
+  set(m, parameter_of("tip_relief.height"), 2.0);
+  const auto [height, start] = lines_with(make_drawing(pair, Member::Pinion, m, {.tolerance_class = 6}), "tip relief height");
+  const double diameter = number_behind(start, "d_Ca = "), roll = number_behind(start, "roll length ");
+  constexpr double written = 1e-3;  // mm: three decimals of either
+  CHECK(diameter == Approx(2.0 * (pair.pinion.tip_form_radius - 2.0)).margin(written));
+  CHECK(std::hypot(roll, pair.pinion.base_radius) == Approx(0.5 * diameter).margin(written));
+}
+
+TEST_CASE("Where one tool grinds both flanks the drawing has the other one's slope and twist, with the opposite sign", "[studies][drawing]") {
+  const FlankDrawing drawing = make_drawing(helical(), Member::Pinion, ground(14.0, 20.0), {.tolerance_class = 6, .ties_flanks = true});
+  const auto other = std::ranges::find_if(drawing.lines, [](const std::string& line) { return line.starts_with("The left flank"); });
+  REQUIRE(other != drawing.lines.end());
+  const auto behind = [&](const char* name) {
+    const auto line = std::find_if(other, drawing.lines.end(), [&](const std::string& text) { return text.find(name) != std::string::npos; });
+    return line == drawing.lines.end() ? std::nan("") : number_behind(*line, "= ");
+  };
+  CHECK(behind("C_Hβ, lead slope") == Approx(-14.0).margin(0.05));
+  CHECK(behind("S_α, twist") == Approx(-number_behind(lines_with(drawing, "S_α, twist").first, "= ")).margin(0.05));
+  // The helix angle brings the same profile slope to both, and crowning is even.
+  CHECK(std::isnan(behind("C_Hα, profile slope")));
+  CHECK(std::isnan(behind("C_β, lead crowning")));
 }
 
 TEST_CASE("A class for a gear that ISO 1328-1 does not cover is refused where it is given", "[studies][drawing][input]") {

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/results/drawing.hpp"
+
+namespace flankwright::studies {
+
+/// What is written on the drawing of a flank: the amounts of the flank as it is ground, with what its process brings, the tolerances of amounts where
+/// study or class give any, diameters and roll lengths, the opposite flank where it is tied to this one, and the tolerances of the class.
+///
+/// The process brings a profile slope and a profile crowning at mid face and a twist, from what make_natural_twist_field() adds between the start of the
+/// active profile, its middle in roll length and the tip. In the middle of the profile the lead is as asked for, see ContactShift.
+/// @param t  of the class in `terms`
+std::vector<std::string> drawing_lines(const GearPair& pair, Member member, const Modification& modification, const FlankTolerances& t,
+                                       const DrawingTerms& terms);
+
+}  // namespace flankwright::studies
