@@ -129,6 +129,7 @@ class Checking {
   }
 
   void check_overlap(const Component& shaft) {
+    if (std::isnan(start_)) return;  // nobody asks for places on a shaft without sections
     std::vector<Place> taken;
     for (const int id : part_.gears) {
       const Component& gear = component(id);

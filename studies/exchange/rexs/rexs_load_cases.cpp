@@ -54,6 +54,7 @@ std::vector<LoadCases::Case> LoadCases::loaded(const std::string& one_sided) {
 }
 
 void LoadCases::settle_times(std::vector<Case>& cases) {
+  if (cases.empty()) return;
   const bool is_alone = reading_.model().load_cases.empty();
   for (Case& c : cases) {
     const OperatingCondition& operation = *c.operation;
@@ -150,9 +151,8 @@ void LoadCases::write(const std::string& one_sided, const std::map<const LoadCas
   std::vector<Case> cases = loaded(one_sided);
   settle_times(cases);
   for (Case& c : cases) {
-    constexpr double negligible = 0.01 * units::um;  // of a misalignment
     const auto found = misalignment.find(c.torque->load_case);
-    if (found != misalignment.end() && std::abs(found->second) > negligible) c.misalignment = found->second;
+    if (found != misalignment.end()) c.misalignment = found->second;
   }
   text.table("load");
   if (cases.empty()) {

@@ -338,11 +338,15 @@ void read_other_cases(Reading& reading, const StageParts& parts, const GearPair&
       const ImportedUnit other = UnitReading(reading, parts, pair, torque).read();
       if (are_scaled(other.shafts.unit, unit.shafts.unit)) continue;
       const double added = misalignment_of(other.shafts, torque.torque) - misalignment_of(unit.shafts, torque.torque);
-      unit.misalignment[torque.load_case] = added;
+      constexpr double negligible = 0.01 * units::um;
+      const bool counts = std::abs(added) > negligible;
+      if (counts) unit.misalignment[torque.load_case] = added;
       reading.warn(
-          fmt::format("{}: its loads from outside are not those of {} scaled with the torque, as a study has them; the {:.3g} um of misalignment by "
-                      "the difference are taken, bearing forces and bending within the face are not",
-                      torque.name, reference.name, added / units::um));
+          fmt::format("{}: its loads from outside are not those of {} scaled with the torque, as a study has them; {}, bearing forces and "
+                      "bending within the face are not taken",
+                      torque.name, reference.name,
+                      counts ? fmt::format("the {:.3g} um of misalignment by the difference are taken", added / units::um)
+                             : "the misalignment by the difference is below 0.01 um"));
     } catch (const LeftOut& left_out) {
       reading.warn(fmt::format("{}: its loads from outside are not taken but those of {}, {}", torque.name, reference.name, left_out.why));
     }
@@ -352,7 +356,7 @@ void read_other_cases(Reading& reading, const StageParts& parts, const GearPair&
 }  // namespace
 
 std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const std::vector<ImportedTorque>& torques) {
-  if (!is_in_unit(reading, parts) || stages_of(reading).size() < 2) return std::nullopt;
+  if (stages_of(reading).size() < 2 || !is_in_unit(reading, parts)) return std::nullopt;
   const ImportedTorque& reference = reference_of(torques);
   try {
     UnitReading of_reference(reading, parts, pair, reference);

@@ -20,7 +20,7 @@ struct ImportedUnit {
   std::vector<std::string> load_remarks, joint_remarks;
   std::vector<Remarks> mesh_remarks;  ///< one for each mesh, as ImportedMesh::remarks, and of torque_1
   /// By load case, where its loads from outside and torques of other meshes are not those of the reference scaled with the torque: the misalignment of
-  /// the mesh with its own, less that with the scaled ones [mm], + opens at +z.
+  /// the mesh with its own, less that with the scaled ones [mm], + opens at +z. Without those below 0.01 um.
   std::map<const LoadCase*, double> misalignment;
 };
 
