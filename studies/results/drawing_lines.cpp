@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/flank/natural_twist.hpp"
+#include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {
 

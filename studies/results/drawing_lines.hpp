@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "studies/results/drawing.hpp"
+#include "core/flank/modifications/modification.hpp"
+#include "core/gear/gear_pair.hpp"
+#include "studies/results/drawn_flank.hpp"
 
 namespace flankwright::studies {
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 
+#include "studies/base/json_format.hpp"
+
 namespace flankwright::studies {
 
 namespace {

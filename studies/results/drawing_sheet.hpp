@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "studies/results/drawing.hpp"
+#include "studies/results/drawn_flank.hpp"
 
 namespace flankwright::studies {
 
