@@ -5,6 +5,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/assessment/validation.hpp"
+#include "optimize/design/draws.hpp"
 #include "optimize/design/screening.hpp"
 #include "optimize/design/two_level.hpp"
 
@@ -14,22 +15,22 @@ namespace {
 
 constexpr double normal_limit = 1.959963984540054;  // standard deviations either side that hold `confidence` of a normal distribution
 
-/// Scenes that could be analysed.
+/// Draws that could be analysed.
 struct Known {
   std::vector<double> measures, weights;
 };
 
-Known known_of(const std::vector<double>& measures, const std::vector<DesignScene>& scenes) {
+Known known_of(const std::vector<double>& measures, const DesignTask& task, const std::vector<std::vector<int>>& draws) {
   Known known;
-  for (std::size_t s = 0; s < measures.size(); ++s) {
-    if (std::isnan(measures[s])) continue;
-    known.measures.push_back(measures[s]);
-    known.weights.push_back(scenes[s].weight);
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (std::isnan(measures[i])) continue;
+    known.measures.push_back(measures[i]);
+    known.weights.push_back(task.scenes[static_cast<std::size_t>(draws[i].front())].weight);
   }
   return known;
 }
 
-/// How much a statistic changes with the weight of each scene: its variance over the scenes is n times that of the statistic
+/// How much a statistic changes with the weight of each draw: its variance over the draws is n times that of the statistic
 /// [Hampel, The influence curve and its role in robust estimation, J. Am. Stat. Assoc. 69 (1974)].
 double influence_deviation(const Aggregation& over, const Known& known) {
   const double mean = aggregate(Aggregate::Mean, known.measures, known.weights);
@@ -47,18 +48,21 @@ double influence_deviation(const Aggregation& over, const Known& known) {
   return aggregate({Aggregate::MeanPlusSigmas, 1.0}, influence, known.weights) - aggregate(Aggregate::Mean, influence, known.weights);
 }
 
-/// Measures of every scene; of a quantile or CVaR only the largest ones are those of the task's resolution.
-std::vector<double> measures_of(const DesignTask& task, std::size_t deciding, const PerGear<Modification>& modification, PredictedStatistic& books) {
+/// Measures of every draw; of a quantile or CVaR only the largest ones are those of the task's resolution.
+std::vector<double> measures_of(const DesignTask& task, const std::vector<std::vector<int>>& draws, std::size_t deciding,
+                                const PerGear<Modification>& modification, PredictedStatistic& books) {
   const std::vector<NamedDesign> design{{"predicted", "", modification}};
-  const auto all_alike = [&](const DesignScene& scene) { return scene.weight == task.scenes.front().weight; };
+  const auto all_alike = [&](const std::vector<int>& draw) {
+    return task.scenes[static_cast<std::size_t>(draw.front())].weight == task.scenes.front().weight;
+  };
   const bool screens =
-      is_of_tail(task.over) && can_be_coarser(task) && !task.combined_objective().over_spectrum() && std::ranges::all_of(task.scenes, all_alike);
+      is_of_tail(task.over) && can_be_coarser(task) && !task.combined_objective().over_spectrum() && std::ranges::all_of(draws, all_alike);
   const auto count = std::ssize(task.scenes);
   books.cycles += count;
   if (!screens) return validate_designs(task, task.scenes, design).front().measures;
   books.screening_cycles += count;
   std::vector<double> measures = validate_designs(screening_task(task), task.scenes, design).front().measures;
-  // A scene that could not be screened is analysed with the first.
+  // A draw that could not be screened is analysed with the first.
   for (double& m : measures) m = std::isnan(m) ? INFINITY : m;
   const auto deciding_of = [&](const std::vector<double>& of) {
     std::vector<double> sorted = of;
@@ -70,7 +74,9 @@ std::vector<double> measures_of(const DesignTask& task, std::size_t deciding, co
   };
   screen(measures, deciding, deciding_of, [&](const std::vector<int>& some) {
     std::vector<DesignScene> scenes;
-    for (const int s : some) scenes.push_back(task.scenes[static_cast<std::size_t>(s)]);
+    for (const int draw : some) {
+      for (const int s : draws[static_cast<std::size_t>(draw)]) scenes.push_back(task.scenes[static_cast<std::size_t>(s)]);
+    }
     books.cycles += std::ssize(scenes);
     std::vector<double> fine = validate_designs(task, scenes, design).front().measures;
     for (double& m : fine) m = std::isnan(m) ? -INFINITY : m;
@@ -97,15 +103,17 @@ std::pair<double, double> quantile_interval(double level, int draws, double conf
   return levels;
 }
 
-PredictedStatistic predict_statistic(const DesignTask& task, int draws, const PerGear<Modification>& modification) {
+PredictedStatistic predict_statistic(const DesignTask& task, const PerGear<Modification>& modification) {
   const Stopwatch clock;
+  const auto drawn = draws_of(task.scenes, task.combined_objective().over_spectrum());
+  const int draws = static_cast<int>(drawn.size());
   PredictedStatistic predicted;
   const bool is_quantile = task.over == Aggregate::Quantile;
   const auto levels = is_quantile ? quantile_interval(task.over.level, draws, PredictedStatistic::confidence) : std::pair{task.over.level, not_given};
   const double least_level = std::isnan(levels.first) ? 0.0 : levels.first;
-  const auto deciding = static_cast<std::size_t>(std::ceil((1.0 - least_level) * static_cast<double>(task.scenes.size()))) + 1;
-  const Known known = known_of(measures_of(task, deciding, modification, predicted), task.scenes);
-  predicted.failed = static_cast<int>(task.scenes.size() - known.measures.size());
+  const auto deciding = static_cast<std::size_t>(std::ceil((1.0 - least_level) * static_cast<double>(drawn.size()))) + 1;
+  const Known known = known_of(measures_of(task, drawn, deciding, modification, predicted), task, drawn);
+  predicted.failed = static_cast<int>(drawn.size() - known.measures.size());
   if (!known.measures.empty()) {
     const auto value_of = [&](const Aggregation& over) { return aggregate(over, known.measures, known.weights); };
     predicted.value = value_of(task.over);

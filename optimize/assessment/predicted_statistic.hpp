@@ -14,17 +14,16 @@ struct PredictedStatistic {
 
   double value{not_given};                      ///< outside units
   double low{not_given}, high{not_given};       ///< interval that holds the true one with `confidence`; NaN where the draws are too few for a limit
-  int failed{0};                                ///< scenes that could not be analysed; left out
+  int failed{0};                                ///< draws that could not be analysed; left out
   std::int64_t cycles{0}, screening_cycles{0};  ///< mesh cycles analysed: all, and those of the screening
   double seconds{not_given};
 };
 
-/// Of a quantile or CVaR the scenes are screened first (screening_task()), and those that decide it and its interval are analysed by the task's resolution.
+/// Of a quantile or CVaR the draws are screened first (screening_task()), and those that decide it and its interval are analysed by the task's resolution.
 ///
-/// @param task          scenes are the draws, task.over is the statistic
-/// @param draws         how many; each has as many scenes as every other one (its torques), which are not independent
+/// @param task          scenes are the load cases of the draws, task.over is the statistic
 /// @param modification  the design
-PredictedStatistic predict_statistic(const DesignTask& task, int draws, const PerGear<Modification>& modification);
+PredictedStatistic predict_statistic(const DesignTask& task, const PerGear<Modification>& modification);
 
 /// Levels of the order statistics between which the quantile of a level lies with at least this probability, whatever the distribution: with the number B
 /// of n draws below the quantile, which is binomial, P(l <= B < u) >= confidence, and the l-th and u-th smallest draws have the levels l/n and u/n

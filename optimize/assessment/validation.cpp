@@ -1,5 +1,7 @@
 #include "optimize/assessment/validation.hpp"
 
+#include "optimize/design/draws.hpp"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -15,14 +17,20 @@ std::vector<ValidatedDesign> validate_designs(const DesignTask& task, const std:
   const DesignProblem problem(std::move(drawn));
   std::vector<ValidatedDesign> validated;
   for (const NamedDesign& design : designs) validated.push_back({design.name, std::vector<double>(scenes.size(), not_given)});
-  if (task.combined_objective().over_spectrum()) {  // all load cases of a spectrum at a time
+  const bool over_spectrum = task.combined_objective().over_spectrum();
+  const auto by_draws = [&] {
+    const auto draws = draws_of(scenes, over_spectrum);
+    for (ValidatedDesign& design : validated) design.measures = draw_measures(draws, scenes, task.within_draw, design.measures);
+    return validated;
+  };
+  if (over_spectrum) {  // all load cases of a spectrum at a time
     for (std::size_t d = 0; d < designs.size(); ++d) {
       try {
         validated[d].measures = problem.scene_measures(task.combined_objective(), problem.analyse_design(designs[d].modification));
       } catch (const std::runtime_error&) {  // not every mesh position converged: all stay NaN
       }
     }
-    return validated;
+    return by_draws();
   }
   tbb::parallel_for(0, problem.scenes(), [&](int s) {
     for (std::size_t d = 0; d < designs.size(); ++d) {
@@ -33,7 +41,7 @@ std::vector<ValidatedDesign> validate_designs(const DesignTask& task, const std:
       }
     }
   });
-  return validated;
+  return by_draws();
 }
 
 Spread spread_of(const std::vector<double>& values) {

@@ -11,11 +11,11 @@ namespace flankwright {
 /// One design over many scenes.
 struct ValidatedDesign {
   std::string name;
-  std::vector<double> measures;  ///< per scene [outside units]; NaN where it could not be analysed
+  std::vector<double> measures;  ///< per draw as draws_of() lists them, or per scene of none [outside units]; NaN where it could not be analysed
 };
 
 /// Analyses designs over scenes that need not be the task's own, each on its own and in parallel; the same bits whatever the number of
-/// threads. Only the numbers are kept, so that there may be many scenes.
+/// threads. Only the numbers are kept, so that there may be many scenes. The load cases of a draw give it one value, as task.within_draw says.
 /// @throws InvalidInput as DesignProblem, for a scene that is none
 std::vector<ValidatedDesign> validate_designs(const DesignTask& task, const std::vector<DesignScene>& scenes,
                                               const std::vector<NamedDesign>& designs);

@@ -138,6 +138,7 @@ struct DesignScene {
   int spectrum{-1};       ///< load cases of the same number make up one load spectrum; -1: of none
   int bin{-1};            ///< which of the spectrum's, as its list counts them
   std::vector<ModificationDeviation> deviations{};
+  int draw{-1};  ///< load cases of the same number are one draw: the same gears in the same housing; -1: of none
 };
 
 /// The variables of a design, its objectives and its constraints.
@@ -157,6 +158,7 @@ struct DesignTask {
   std::vector<DesignVariable> variables;
   std::vector<ObjectiveTerm> objective;
   Aggregation over;
+  Aggregation within_draw;  ///< of the load cases of one draw, where the scenes are draws; constraints have the worst
   std::vector<OutputConstraint> constraints;
   std::vector<LinkingConstraint> links;
   std::vector<ModificationConstraint> modification_constraints;

@@ -167,7 +167,7 @@ std::optional<Eigen::VectorXd> shortest_within(const Eigen::MatrixXd& slopes, co
   return -residual.head(n) / residual[n];
 }
 
-ScatterModel::ScatterModel(const DesignProblem& problem) : objective(problem, problem.task().combined_objective()) {
+ScatterModel::ScatterModel(const DesignProblem& problem) : objective(problem, problem.task().combined_objective(), problem.task().within_draw) {
   const DesignTask& task = problem.task();
   for (const ObjectiveBound& bound : task.objective_bounds) {
     bounded.emplace_back(problem, bound.objective);

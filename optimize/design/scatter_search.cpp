@@ -41,7 +41,10 @@ class DrawSearch {
     models_.push_back(&model_.objective);
     for (StatisticModel& bounded : model_.bounded) models_.push_back(&bounded);
     of_spectrum_ = std::ranges::any_of(models_, [](const StatisticModel* m) { return m->objective().over_spectrum(); });
+    number_units();
   }
+
+  int draws() const { return model_.objective.draws(); }
 
   /// Whether the first n draws are the same ones for all statistics.
   bool can_begin_with_few() const { return !of_spectrum_; }
@@ -97,14 +100,8 @@ class DrawSearch {
   const std::vector<double>& measures() const { return measures_; }
   const std::vector<double>& bounds() const { return bounds_; }
   std::vector<double> weights() const { return models_.front()->statistic_weights(measures_); }
-  /// Scenes analysed by the last judge().
-  std::vector<int> deciding(const DesignProblem& problem) const {
-    std::vector<int> scenes;
-    for (int s = 0; s < problem.scenes(); ++s) {
-      if (last_.units.contains(scene_unit(problem, s))) scenes.push_back(s);
-    }
-    return scenes;
-  }
+  /// Number of draws analysed by the last judge().
+  std::size_t deciding() const { return last_.units.size(); }
 
   /// A design by the draws that decide there once the others are screened: all, or where the design need only be compared as far as the model may err. A
   /// draw is then left out where (1 + safety * shortfall) guess < least measure that a statistic hangs on; the shortfall is the largest by which the model
@@ -170,7 +167,7 @@ class DrawSearch {
   std::vector<Guess> others_worst_first(const Eigen::VectorXd& x, int draws) const {
     std::vector<Guess> others;
     for (int draw = 0; draw < models_.front()->draws(draws); ++draw) {
-      if (!last_.units.contains(scene_unit(screening_, models_.front()->scene(draw)))) others.push_back({draw, 0.0});
+      if (!last_.units.contains(unit_of(*models_.front(), draw))) others.push_back({draw, 0.0});
     }
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const std::vector<double> guess = models_[m]->measures(x, draws);
@@ -280,25 +277,31 @@ class DrawSearch {
     return true;
   }
 
-  /// Scenes that are analysed together have the same number: the load cases of a spectrum, else each on its own.
-  int scene_unit(const DesignProblem& problem, int scene) const {
-    const int spectrum = problem.task().scenes[static_cast<std::size_t>(scene)].spectrum;
-    return of_spectrum_ && spectrum >= 0 ? spectrum : scene;
+  /// Scenes that are analysed together have the same number, that of their first: the load cases of a draw or of a spectrum, else each on its own.
+  void number_units() {
+    std::map<std::pair<bool, int>, int> first;
+    for (int s = 0; s < full_.scenes(); ++s) {
+      const DesignScene& scene = full_.task().scenes[static_cast<std::size_t>(s)];
+      const bool is_drawn = scene.draw >= 0, is_alone = !is_drawn && !(of_spectrum_ && scene.spectrum >= 0);
+      units_.push_back(is_alone ? s : first.try_emplace({is_drawn, is_drawn ? scene.draw : scene.spectrum}, s).first->second);
+    }
   }
+  int unit_of(int scene) const { return units_[static_cast<std::size_t>(scene)]; }
+  int unit_of(const StatisticModel& model, int draw) const { return unit_of(model.first_scene(draw)); }
 
   /// Analyses draws that the last judge() has not analysed yet; measures of all these.
   std::vector<double> analyse(const DesignProblem& problem, const Eigen::VectorXd& x, const StatisticModel& of, const std::vector<int>& draws,
                               bool with_derivatives) {
     std::set<int> units;
-    for (const int draw : draws) units.insert(scene_unit(problem, of.scene(draw)));
+    for (const int draw : draws) units.insert(unit_of(of, draw));
     std::erase_if(units, [this](int unit) { return last_.units.contains(unit); });
     std::vector<int> scenes;
     for (int s = 0; s < problem.scenes(); ++s) {
-      if (units.contains(scene_unit(problem, s))) scenes.push_back(s);
+      if (units.contains(unit_of(s))) scenes.push_back(s);
     }
     for (std::size_t from = 0; from < scenes.size();) {
       std::size_t to = std::min(from + chunk, scenes.size());
-      while (to < scenes.size() && scene_unit(problem, scenes[to]) == scene_unit(problem, scenes[to - 1])) ++to;
+      while (to < scenes.size() && unit_of(scenes[to]) == unit_of(scenes[to - 1])) ++to;
       linearise(problem, x, {scenes.begin() + static_cast<std::ptrdiff_t>(from), scenes.begin() + static_cast<std::ptrdiff_t>(to)}, with_derivatives);
       from = to;
     }
@@ -322,7 +325,7 @@ class DrawSearch {
     const std::set<int> some(scenes.begin(), scenes.end());
     for (std::size_t m = 0; m < models_.size(); ++m) {
       for (int i = 0; i < models_[m]->draws(); ++i) {
-        if (some.contains(models_[m]->scene(i))) asked.push_back({m, i, {}});
+        if (some.contains(models_[m]->first_scene(i))) asked.push_back({m, i, {}});
       }
     }
     tbb::parallel_for(std::size_t{0}, asked.size(),
@@ -337,6 +340,7 @@ class DrawSearch {
   ScatterModel model_;
   std::vector<StatisticModel*> models_;  ///< the objective's, then those of the bounds
   bool of_spectrum_{false};
+  std::vector<int> units_;  ///< per scene, see number_units()
   double radius_{first_radius};
   Analysed last_, accepted_;                                ///< of the last judge(), and of the last design accepted
   std::map<std::pair<std::size_t, int>, double> screened_;  ///< measures of the others where a step was to be accepted
@@ -376,7 +380,7 @@ ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double
   try {
     const bool is_quantile = task.over == Aggregate::Quantile;
     const Aggregation approach = is_quantile ? Aggregation{Aggregate::Cvar, 2.0, task.over.level} : task.over;
-    const int all = full.scenes(), few = search.can_begin_with_few() ? std::min(first_draws, all) : all;
+    const int all = search.draws(), few = search.can_begin_with_few() ? std::min(first_draws, all) : all;
     for (int draws = few; draws < all; draws = std::min(draws * growth_of_draws, all)) {
       design.x = search.descend(screening, design.x, draws, approach).x;
     }
@@ -393,7 +397,7 @@ ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double
     design.measures = search.measures();
     design.weights = search.weights();
     design.bounds = search.bounds();
-    design.decided_by = search.deciding(full).size();
+    design.decided_by = search.deciding();
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::runtime_error& error) {

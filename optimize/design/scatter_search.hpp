@@ -43,7 +43,7 @@ struct ScatterDesign {
 /// hard for every design, not those that happened to be bad at the start. Over all draws the quantile is smoothed, StatisticModel::smooth(); `value` is the
 /// quantile itself. Last the design is rounded to the steps.
 ///
-/// @param task     scenes are the draws; constraints on outputs are objective bounds with the statistic, and task.constraints is empty
+/// @param task     scenes are the load cases of the draws, see draws_of(); constraints on outputs are objective bounds with the statistic, and task.constraints is empty
 /// @param start    a design to begin with, such as the optimum without scatter, in the order of the variables [mm; parabolic_te 1/rad]
 /// @param options  max_evaluations counts designs tried
 /// @throws InvalidInput as DesignProblem

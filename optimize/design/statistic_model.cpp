@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "optimize/design/draws.hpp"
 #include "optimize/design/screening.hpp"
 
 namespace flankwright {
@@ -35,32 +36,41 @@ std::vector<PeakCandidate> candidates_of(const ObjectiveTerm& term, const Loaded
   return candidates;
 }
 
+LinearDraw::Peak peak_of(const ObjectiveTerm& term, const LoadedScene& scene, const DesignProblem& problem, double growth) {
+  const std::vector<PeakCandidate> candidates = candidates_of(term, scene);
+  const auto rows = static_cast<Eigen::Index>(candidates.size());
+  LinearDraw::Peak peak{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, problem.variables())};
+  for (Eigen::Index j = 0; j < rows; ++j) {
+    const SmoothValue value = candidate_value(term, candidates[static_cast<std::size_t>(j)], scene);
+    const double root = value.value > 0.0 ? std::pow(value.value, 1.0 / growth) : 0.0;
+    peak.values[j] = root;
+    peak.slopes.row(j).setZero();
+    if (value.value > 0.0 && value.gradient.size() > 0) {
+      peak.slopes.row(j) = root / (growth * value.value) * problem.scaled(value.gradient).transpose();
+    }
+  }
+  return peak;
+}
+
 }  // namespace
 
-StatisticModel::StatisticModel(const DesignProblem& problem, Objective objective)
-    : objective_(std::move(objective)), growth_(model_growth(objective_)), scenes_(problem.judged_scenes(objective_.terms.front())) {
+StatisticModel::StatisticModel(const DesignProblem& problem, Objective objective, Aggregation within)
+    : objective_(std::move(objective)),
+      within_(within),
+      growth_(model_growth(objective_)),
+      scenes_(draws_of(problem.task().scenes, objective_.over_spectrum())) {
   const std::vector<double> all = problem.scene_weights();
-  for (const int s : scenes_) weights_.push_back(all[static_cast<std::size_t>(s)]);
+  for (const std::vector<int>& draw : scenes_) weights_.push_back(all[static_cast<std::size_t>(draw.front())]);
   known_.resize(scenes_.size());
 }
 
 LinearDraw StatisticModel::linear(const DesignProblem& problem, const DesignAnalysis& analysis, int draw, const Eigen::VectorXd& x) const {
-  const LoadedScene scene = problem.scene(analysis, this->scene(draw));
   LinearDraw linear{x, {}};
-  for (const ObjectiveTerm& term : objective_.terms) {
-    const std::vector<PeakCandidate> candidates = candidates_of(term, scene);
-    const auto rows = static_cast<Eigen::Index>(candidates.size());
-    LinearDraw::Peak peak{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, x.size())};
-    for (Eigen::Index j = 0; j < rows; ++j) {
-      const SmoothValue value = candidate_value(term, candidates[static_cast<std::size_t>(j)], scene);
-      const double root = value.value > 0.0 ? std::pow(value.value, 1.0 / growth_) : 0.0;
-      peak.values[j] = root;
-      peak.slopes.row(j).setZero();
-      if (value.value > 0.0 && value.gradient.size() > 0) {
-        peak.slopes.row(j) = root / (growth_ * value.value) * problem.scaled(value.gradient).transpose();
-      }
-    }
-    linear.terms.push_back(std::move(peak));
+  for (const int s : scenes(draw)) {
+    const LoadedScene scene = problem.scene(analysis, s);
+    LinearDraw::LoadCase load_case{problem.task().scenes[static_cast<std::size_t>(s)].weight, {}};
+    for (const ObjectiveTerm& term : objective_.terms) load_case.terms.push_back(peak_of(term, scene, problem, growth_));
+    linear.load_cases.push_back(std::move(load_case));
   }
   return linear;
 }
@@ -80,25 +90,45 @@ void StatisticModel::add(int draw, LinearDraw linear) {
 LinearDraw StatisticModel::moved(int draw, const Eigen::VectorXd& x, double measure) const {
   LinearDraw linear = known_[static_cast<std::size_t>(draw)].front();
   const double expected = unseen(seen(linear, x).value);
-  for (LinearDraw::Peak& peak : linear.terms) {
-    peak.values += peak.slopes * (x - linear.x);
-    // All outputs are off by the same share.
-    if (expected > 0.0) peak.values *= seen(measure) / seen(expected);
+  for (LinearDraw::LoadCase& load_case : linear.load_cases) {
+    for (LinearDraw::Peak& peak : load_case.terms) {
+      peak.values += peak.slopes * (x - linear.x);
+      // All outputs are off by the same share.
+      if (expected > 0.0) peak.values *= seen(measure) / seen(expected);
+    }
   }
   linear.x = x;
   return linear;
 }
 
-SmoothValue StatisticModel::seen(const LinearDraw& linear, const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd step = x - linear.x;
-  SmoothValue measure{0.0, Eigen::VectorXd::Zero(x.size())};
-  for (std::size_t k = 0; k < linear.terms.size(); ++k) {
-    const LinearDraw::Peak& peak = linear.terms[k];
+SmoothValue StatisticModel::measure(const LinearDraw::LoadCase& load_case, const Eigen::VectorXd& step) const {
+  SmoothValue measure{0.0, Eigen::VectorXd::Zero(step.size())};
+  for (std::size_t k = 0; k < load_case.terms.size(); ++k) {
+    const LinearDraw::Peak& peak = load_case.terms[k];
     Eigen::Index leader = 0;
     const double root = std::max(0.0, (peak.values + peak.slopes * step).maxCoeff(&leader));
     const double weight = objective_.terms[k].weight * objective_.terms[k].outside_factor();
     measure.value += weight * std::pow(root, growth_);
     if (root > 0.0) measure.gradient += weight * growth_ * std::pow(root, growth_ - 1.0) * peak.slopes.row(leader).transpose();
+  }
+  return measure;
+}
+
+SmoothValue StatisticModel::seen(const LinearDraw& linear, const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd step = x - linear.x;
+  SmoothValue measure = this->measure(linear.load_cases.front(), step);
+  if (linear.load_cases.size() > 1) {
+    std::vector<double> values, weights;
+    std::vector<Eigen::VectorXd> gradients;
+    for (const LinearDraw::LoadCase& load_case : linear.load_cases) {
+      SmoothValue of_case = this->measure(load_case, step);
+      values.push_back(of_case.value);
+      gradients.push_back(std::move(of_case.gradient));
+      weights.push_back(load_case.weight);
+    }
+    const std::vector<double> by = aggregate_weights(within_, values, weights);
+    measure = {aggregate(within_, values, weights), Eigen::VectorXd::Zero(x.size())};
+    for (std::size_t i = 0; i < by.size(); ++i) measure.gradient += by[i] * gradients[i];
   }
   if (growth_ == 1.0) return measure;
   if (!(measure.value > 0.0)) return {0.0, Eigen::VectorXd::Zero(x.size())};

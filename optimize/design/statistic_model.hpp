@@ -7,14 +7,18 @@
 
 namespace flankwright {
 
-/// The outputs of one objective in one draw, each with its leading candidates and their gradients at a design: the draw near that design.
+/// The outputs of one objective in the load cases of one draw, each with its leading candidates and their gradients at a design: the draw near that design.
 struct LinearDraw {
   struct Peak {
     Eigen::VectorXd values;  ///< roots r_j of the candidates, see StatisticModel
     Eigen::MatrixXd slopes;  ///< a row each, by the scaled variables
   };
+  struct LoadCase {
+    double weight;  ///< among those of the draw
+    std::vector<Peak> terms;
+  };
   Eigen::VectorXd x;  ///< scaled
-  std::vector<Peak> terms;
+  std::vector<LoadCase> load_cases;
 };
 
 /// A statistic over draws as a function of the design, from analyses of each draw at designs of its own.
@@ -23,11 +27,14 @@ struct LinearDraw {
 ///
 ///     r_sk(x) = max_j r_skj + dr_skj/dx (x - x_0),      m_s(x) = sum_k w_k r_sk^g,      F(x) = statistic of the m_s
 ///
+/// Where a draw has several load cases, its m_s is the aggregate of those of its load cases, such as the worst.
+///
 /// r is the root u^(1/g) of an output u that grows with the power g of a stress (Objective::growth()). A contact stress alone has g = 1/2: its square is the
 /// line load, which is linear in the flanks as long as the points keep their contact. What is minimised is f = F^(1/g).
 class StatisticModel {
  public:
-  StatisticModel(const DesignProblem& problem, Objective objective);
+  /// @param within  combines the load cases of a draw
+  StatisticModel(const DesignProblem& problem, Objective objective, Aggregation within = Aggregate::Worst);
 
   const Objective& objective() const { return objective_; }
   /// Another statistic of the same outputs.
@@ -37,10 +44,12 @@ class StatisticModel {
   /// statistic is the quantile itself again.
   void smooth(int draws);
   void exact() { band_ = 0.0; }
-  /// Draws of the objective: the scenes, or the first of each load spectrum where it is a sum over it.
+  /// Draws of the objective, see draws_of().
   int draws() const { return static_cast<int>(scenes_.size()); }
   int draws(int first) const { return std::min(first, draws()); }
-  int scene(int draw) const { return scenes_[static_cast<std::size_t>(draw)]; }
+  /// Load cases of a draw.
+  const std::vector<int>& scenes(int draw) const { return scenes_[static_cast<std::size_t>(draw)]; }
+  int first_scene(int draw) const { return scenes(draw).front(); }
 
   /// Of an analysis; without derivatives constant.
   LinearDraw linear(const DesignProblem& problem, const DesignAnalysis& analysis, int draw, const Eigen::VectorXd& x) const;
@@ -78,14 +87,17 @@ class StatisticModel {
   Tangents tangents(const Eigen::VectorXd& x, const std::vector<bool>& left_out, int first, double level) const;
 
  private:
+  /// m of one load case and its gradient.
+  SmoothValue measure(const LinearDraw::LoadCase& load_case, const Eigen::VectorXd& step) const;
   bool is_band() const { return band_ > 0.0; }
   /// A smoothed quantile is the mean of the worst of those that it does not leave out.
   Aggregation of_rest() const { return {Aggregate::Cvar, 2.0, 1.0 - 2.0 * band_ / (objective_.over.level + band_)}; }
 
   Objective objective_;
+  Aggregation within_;
   double band_{0.0};  ///< half width of a smoothed quantile's levels
   double growth_;
-  std::vector<int> scenes_;
+  std::vector<std::vector<int>> scenes_;  ///< per draw
   std::vector<double> weights_;
   std::vector<std::vector<LinearDraw>> known_;
 };

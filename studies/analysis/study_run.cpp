@@ -91,6 +91,7 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
       DesignScene& loaded = scenes.emplace_back(DesignScene{
           scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene)), {.speed = scene.speed}});
       loaded.deviations = scene.deviations;
+      loaded.draw = scene.draw;
       if (bins.empty()) continue;
       const SpectrumBin& bin = bins[k];
       loaded.operation = {bin.cycles, bin.speed, bin.hours, bin.temperature, bin.same_teeth, results_.study.life.meshes_per_revolution};

@@ -56,6 +56,7 @@ struct Scene {
   double speed{not_given};                          ///< of the pinion [rad/s]; NaN: not given, or that of each bin of a spectrum
   std::vector<ModificationDeviation> deviations{};  ///< of drawn gears from their design
   std::optional<WorkingFlank> working_flank{};      ///< of the pinion, that this scene loads; nothing: the pair's
+  int draw{-1};                                     ///< which drawn pair of gears it is of; -1: none
 };
 
 /// A measured or topological flank: the file that the study names and what was read from it.

@@ -15,6 +15,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/pareto_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/random_problems_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rounding_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/draws_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/scatter_search_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/linking_constraints_test.cpp)
 list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/between_positions_test.cpp)

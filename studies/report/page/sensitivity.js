@@ -1,11 +1,13 @@
 // The active conditions at the optimum, and the change of the objective by a step of each variable and tolerance.
 
+/** Says which design a section is about, where that is not the one shown. */
+function name_assessed_design(optimise, body) {
+  if (typeof optimise.assessed_design === "string") body.append(el("p", { class: "fine" }, `Of ${optimise.assessed_design}, not of the design shown:`));
+}
+
 function build_governing(results, body) {
   const optimise = record(results.optimise), governing = record(optimise.governing);
-  const is_left = optimise.exact !== undefined || scatter_of(optimise);
-  if (is_left && list(governing.words).length > 0) {
-    body.append(el("p", { class: "fine" }, optimise.scatter ? "Of the optimum over the listed scenes, before gears were drawn:" : "Of the optimum before what cannot be ground was left out and amounts were rounded:"));
-  }
+  if (list(governing.words).length > 0) name_assessed_design(optimise, body);
   body.append(el("ul", { class: "statements" }, ...list(governing.words).map((sentence) => el("li", {}, pretty_unit(sentence)))));
   const usual = record(optimise.usual_signs);
   if (typeof usual.words === "string") body.append(el("p", { class: "banner" }, pretty_unit(usual.words)));
@@ -41,6 +43,7 @@ function build_sensitivity(results, body) {
   const shown = (change) => (!is_number(change) ? null : Math.abs(change) < round_off ? 0 : change);
   const unit = pretty_unit(governing.objective_unit ?? optimise.objective_unit), name = words(governing.objective_name ?? optimise.objective_name);
   const entries = list(optimise.sensitivity).map(record);
+  name_assessed_design(optimise, body);
   const grid = figure_grid(body);
   const draw = (kind, title, caption) => {
     const of_kind = entries.filter((s) => s.kind === kind);

@@ -43,6 +43,13 @@ function drawn_facts(scatter) {
   ];
 }
 
+/** "Each draw has 2 load cases in 2 operating states (drive, coast); its value is the worst of them."; empty where a draw has one. */
+function load_cases_of_draw(scatter) {
+  const count = scatter.load_cases_of_a_draw, states = list(scatter.states);
+  if (!(count > 1)) return "";
+  return ` Each draw has ${count} load cases in ${states.length > 1 ? `${states.length} operating states (${states.join(", ")})` : "one operating state"}; its value is the ${scatter.within_draw} of them.`;
+}
+
 function build_tolerances(results, body) {
   const scatter = record(record(results.optimise).scatter), unit = pretty_unit(scatter.unit), fresh = record(scatter.fresh);
   const without = record(scatter.without_scatter), predicted = record(scatter.predicted);
@@ -50,7 +57,7 @@ function build_tolerances(results, body) {
     ? ` With ${fmt(100 * predicted.confidence, 3)} % confidence it lies between ${fmt(predicted.low, 4)} and ${fmt(predicted.high, 4)} ${unit}.` : "";
   table(body, {
     title: `${capital(`${scatter.statistic_in_words}`)} over the draws`,
-    note: `${fmt(scatter.draws, 5)} draws, the same for every design; the search took ${fmt(scatter.seconds, 2)} s, that without scatter before it ${fmt(without.seconds, 2)} s. Over the draws of the search its own design is the best of many, and so a little better than others will be.`
+    note: `${fmt(scatter.draws, 5)} draws, the same for every design; the search took ${fmt(scatter.seconds, 2)} s, that without scatter before it ${fmt(without.seconds, 2)} s. Over the draws of the search its own design is the best of many, and so a little better than others will be.${load_cases_of_draw(scatter)}`
       + (is_number(predicted.value) ? ` The prediction is from ${fmt(predicted.draws, 5)} draws that the search has not seen.${interval}` : "")
       + (is_number(fresh.prediction_error_percent) ? ` Beside ${fmt(fresh.draws, 5)} fresh draws it is ${fmt(Math.abs(fresh.prediction_error_percent), 2)} % off.` : ""),
     columns: [{ label: "Design" }, { label: "Draws of the search" }, { label: "Predicted" }, { label: "Fresh draws" }, { label: "Unit" }],

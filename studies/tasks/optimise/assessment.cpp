@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/draws.hpp"
 #include "studies/base/plain_names.hpp"
+#include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/listed_scenes.hpp"
 
 namespace flankwright::studies {
@@ -21,19 +23,6 @@ std::vector<VariantSearch> search_all_variants(const DesignProblem& problem, dou
     }));
   }
   return searches;
-}
-
-Validation validate(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
-                    const ComparedDesign* best_rule) {
-  const Stopwatch clock;
-  Validation validation{.seed = study.optimise.assessment.validation.seed, .scenes = {}, .designs = {}};
-  std::vector<NamedDesign> designs{{"before", "", design.before.analysis.modification.pinion, design.before.analysis.modification.wheel},
-                                   {"after", "", design.after.analysis.modification.pinion, design.after.analysis.modification.wheel}};
-  if (best_rule != nullptr) designs.push_back(best_rule->design);
-  for (const DesignScene& scene : drawn) validation.scenes.push_back(scene.name);
-  validation.designs = validate_designs(problem.task(), drawn, designs);
-  validation.seconds = clock.seconds();
-  return validation;
 }
 
 /// What the optimum is of: the objective, of a list the last one by its name.
@@ -79,6 +68,13 @@ std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const 
                                      -c.terms[1].factor / units::um, assessment_step(c.unit()), c.unit()),
                          optimum, task);
   }
+  if (c.grinding == GrindingLimit::Amount) {
+    const std::string amount =
+        plain_name(std::string(name_of(c.terms[0].member)) + ".modification." + std::string(describe(c.terms[0].parameter).key));
+    const std::string stands =
+        fmt::format("The {} is as large as can be ground, {:.4g} {}", amount, (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit());
+    return gain_in_words(sum.gain, fmt::format("{}: a further {:.2g} {}", stands, assessment_step(c.unit()), c.unit()), optimum, task);
+  }
   const std::string move =
       fmt::format("The sum {} is at its {} limit, {:.4g} {}: a further {:.2g} {}", plain_name(c.name), sum.upper ? "upper" : "lower",
                   (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), assessment_step(c.unit()), c.unit());
@@ -118,7 +114,7 @@ std::string move_in_words(const Relaxation::Move& move, const DesignTask& task) 
 }  // namespace
 
 Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
-                          const std::vector<DesignScene>& drawn, const ProgressReport& progress) {
+                          const ProgressReport& progress) {
   const Stopwatch clock;
   Assessment assessment;
   if (study.optimise.assessment.rules) {
@@ -132,11 +128,8 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   if (study.optimise.assessment.variants > 0.0) {
     assessment.variants = search_all_variants(problem, study.optimise.assessment.variants * design.evaluations, progress);
   }
-  if (!drawn.empty()) {
-    if (progress) progress("validating", 0, 1, std::to_string(drawn.size()) + " scenes drawn afresh");
-    assessment.validation = validate(study, problem, design, drawn, best_of(assessment.rules));
-  }
   // Rounding to the grinder's steps leaves the optimum.
+  if (design.exact) assessment.is_of = design.choices.empty() ? AssessedDesign::BeforeRounding : AssessedDesign::BeforeChoices;
   const DesignReport& best = design.exact ? *design.exact : design.after;
   const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
@@ -155,6 +148,37 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   }
   assessment.seconds = clock.seconds();
   return assessment;
+}
+
+Validation validate(const Study& study, const DesignTask& task, const DesignResult& design, const std::vector<DesignScene>& drawn,
+                    const ComparedDesign* best_rule) {
+  const Stopwatch clock;
+  Validation validation;
+  validation.seed = study.optimise.assessment.validation.seed;
+  validation.load_cases = load_cases_in_words(study);
+  std::vector<NamedDesign> designs{{"before", "", design.before.analysis.modification.pinion, design.before.analysis.modification.wheel},
+                                   {"after", "", design.after.analysis.modification.pinion, design.after.analysis.modification.wheel}};
+  if (best_rule != nullptr) designs.push_back(best_rule->design);
+  for (const std::vector<int>& draw : draws_of(drawn, task.combined_objective().over_spectrum())) {
+    validation.draws.push_back(name_of_draw(drawn[static_cast<std::size_t>(draw.front())].draw));
+  }
+  validation.designs = validate_designs(task, drawn, designs);
+  validation.seconds = clock.seconds();
+  return validation;
+}
+
+std::string assessed_design_in_words(AssessedDesign design) {
+  switch (design) {
+    case AssessedDesign::Shown:
+      break;
+    case AssessedDesign::BeforeRounding:
+      return "the optimum before rounding to the steps";
+    case AssessedDesign::BeforeChoices:
+      return "the optimum before what cannot be ground was left out";
+    case AssessedDesign::WithoutScatter:
+      return "the optimum over the listed scenes, before gears were drawn";
+  }
+  return "";
 }
 
 std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task) {
@@ -203,10 +227,11 @@ std::string no_rule_in_words(const std::vector<ComparedDesign>& rules) {
 std::string validation_in_words(const Validation& validation, const DesignTask& task) {
   const Spread before = spread_of(validation.designs[0].measures), after = spread_of(validation.designs[1].measures);
   const double better = share_below(validation.designs[1].measures, validation.designs[0].measures);
+  const std::string load_cases = validation.load_cases.empty() ? "" : validation.load_cases + ",";
   std::string words = fmt::format(
-      "Over {} scenes drawn afresh (seed {}) the design is better than before in {:.1f} %; mean {:.5g} -> {:.5g}, 95 % below {:.5g} -> {:.5g}, "
+      "Over {} scenes drawn afresh (seed {}){} the design is better than before in {:.1f} %; mean {:.5g} -> {:.5g}, 95 % below {:.5g} -> {:.5g}, "
       "largest {:.5g} -> {:.5g}{}.",
-      validation.scenes.size(), validation.seed, 100.0 * better, before.mean, after.mean, before.quantiles.back(), after.quantiles.back(),
+      validation.draws.size(), validation.seed, load_cases, 100.0 * better, before.mean, after.mean, before.quantiles.back(), after.quantiles.back(),
       before.greatest, after.greatest, behind_number(task.objective_unit()));
   if (validation.designs.size() > 2) {
     const ValidatedDesign& rule = validation.designs[2];

@@ -15,21 +15,26 @@
 
 namespace flankwright::studies {
 
-/// Designs over fresh scenes, drawn from the study's tolerances.
+/// Designs over fresh draws from the study's tolerances.
 struct Validation {
   unsigned long seed{0};
-  std::vector<std::string> scenes;       ///< names
+  std::string load_cases;                ///< that the value of a draw is made of, see load_cases_in_words()
+  std::vector<std::string> draws;        ///< names
   std::vector<ValidatedDesign> designs;  ///< "before", "after", then the best rule of thumb where there is one
   double seconds{not_given};
 };
 
-/// Assessment of an optimum: comparison with other designs, validation on fresh scenes, and its active conditions.
+/// Which design the active conditions and the sensitivities are of.
+enum class AssessedDesign { Shown, BeforeRounding, BeforeChoices, WithoutScatter };
+
+/// Assessment of an optimum: comparison with other designs, validation on fresh draws, and its active conditions.
 struct Assessment {
   std::optional<RuleBasis> basis;        ///< of the rules, where they were asked for
   std::vector<ComparedDesign> rules;     ///< empty: not asked for
   std::vector<VariantSearch> variants;   ///< one a placement of the levels; empty: not asked for
-  std::optional<Validation> validation;  ///< none: not asked for
-  std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
+  std::optional<Validation> validation;  ///< of the design that is shown; none: not asked for
+  AssessedDesign is_of{};                ///< what the optimum and its usual signs are of
+  std::optional<Optimum> optimum;        ///< of the design before rounding and scatter; none where it cannot be analysed
   std::optional<DesignTask>
       judged;  ///< the problem of the optimum under the limits asked for: the task, or for a list of objectives the last one under limits on those before it
   std::optional<UsualSigns> usual;       ///< where the optimum asks for what is seldom ground; none where it does not
@@ -39,9 +44,16 @@ struct Assessment {
 
 /// @param problem  that was optimised; its limits may be tighter than those asked for, by what extremes between the positions exceed those at them
 /// @param asked    the task with the limits asked for, by which other designs are judged and which sentences name
-/// @param drawn    scenes to validate on; empty: none
 Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
-                          const std::vector<DesignScene>& drawn, const ProgressReport& progress);
+                          const ProgressReport& progress);
+
+/// The designs before and after, and the best rule of thumb where there is one, over draws.
+/// @param drawn  load cases of the draws
+Validation validate(const Study& study, const DesignTask& task, const DesignResult& design, const std::vector<DesignScene>& drawn,
+                    const ComparedDesign* best_rule);
+
+/// "the optimum before rounding to the steps"; empty for the design that is shown.
+std::string assessed_design_in_words(AssessedDesign design);
 
 /// What an optimum has that is seldom ground, and the best design without it with its price.
 std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& judged);

@@ -173,7 +173,7 @@ Json validation_json(const Validation& validation, const DesignTask& task, const
   Json edges = Json::array();
   for (int i = 0; i <= bins; ++i) edges.push_back(whole.least + (whole.greatest - whole.least) * i / bins);
   const std::vector<double>& after = validation.designs[1].measures;
-  Json json{{"samples", validation.scenes.size()},
+  Json json{{"samples", validation.draws.size()},
             {"seed", validation.seed},
             {"seconds", validation.seconds},
             {"tolerances", list(asked.tolerances,
@@ -193,10 +193,12 @@ Json validation_json(const Validation& validation, const DesignTask& task, const
 void add_assessment(const Assessment& assessment, const DesignTask& task, const AssessmentTable& asked, Json& optimise) {
   optimise["comparison"] = comparison_json(assessment, task);
   optimise["proof_seconds"] = assessment.seconds;
+  if (assessment.is_of != AssessedDesign::Shown) optimise["assessed_design"] = assessed_design_in_words(assessment.is_of);
   if (assessment.validation) optimise["validation"] = validation_json(*assessment.validation, task, asked);
   if (assessment.relaxation) optimise["relaxation"] = relaxation_json(*assessment.relaxation, task);
   if (!assessment.optimum) return;
   optimise["governing"] = governing_json(*assessment.optimum, *assessment.judged);
+  if (optimise.contains("assessed_design")) optimise["governing"]["design"] = optimise["assessed_design"];
   if (assessment.usual) optimise["usual_signs"] = usual_signs_json(*assessment.usual, *assessment.judged);
   optimise["sensitivity"] = list(assessment.optimum->sensitivities, sensitivity_json);
 }

@@ -30,12 +30,12 @@ std::string sensitivity_csv(const Optimum& optimum) {
 }
 
 std::string validation_csv(const Validation& validation) {
-  std::string csv = "scene";
+  std::string csv = "draw";
   for (const ValidatedDesign& design : validation.designs) csv += fmt::format(",{}", csv_field(design.name));
   csv += "\n";
-  for (std::size_t s = 0; s < validation.scenes.size(); ++s) {
-    csv += csv_field(validation.scenes[s]);
-    for (const ValidatedDesign& design : validation.designs) csv += fmt::format(",{}", design.measures[s]);
+  for (std::size_t i = 0; i < validation.draws.size(); ++i) {
+    csv += csv_field(validation.draws[i]);
+    for (const ValidatedDesign& design : validation.designs) csv += fmt::format(",{}", design.measures[i]);
     csv += "\n";
   }
   return csv;
@@ -52,7 +52,12 @@ std::vector<NamedText> assessment_tables(const Assessment& assessment) {
 }
 
 std::string assessment_summary(const Assessment& assessment, const DesignTask& task, double optimum) {
-  std::string out;
+  const std::string validation = assessment.validation ? validation_in_words(*assessment.validation, task) + "\n" : "";
+  const std::string is_of = assessed_design_in_words(assessment.is_of);
+  // The listed scenes did not choose a design over draws: rules of thumb are held against their own optimum.
+  const bool is_of_listed = assessment.is_of == AssessedDesign::WithoutScatter;
+  const std::string heading = is_of.empty() ? "" : "of " + is_of + ":\n";
+  std::string out = is_of_listed ? validation + heading : "";
   const std::string of_list = task.later_objectives.empty() ? "" : plain_name(task.objective_name()) + " ";  // it is the first that is compared
   const auto beside = [&](const std::string& what, double value) {
     if (!(optimum > 0.0)) {
@@ -72,12 +77,14 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
     const std::string name = fmt::format("best of {} variants, {}", search.tried, to_string(search.placement));
     if (search.x.size() > 0) beside(name, search.best.objective);
   }
-  if (assessment.validation) out += validation_in_words(*assessment.validation, task) + "\n";
+  if (!is_of_listed) out += validation;
   if (assessment.relaxation) {
     for (const std::string& sentence : relaxation_in_words(*assessment.relaxation, task)) out += sentence + "\n";
   }
   if (!assessment.optimum) return out;
-  for (const std::string& sentence : optimum_in_words(*assessment.optimum, *assessment.judged)) out += sentence + "\n";
+  const std::vector<std::string> sentences = optimum_in_words(*assessment.optimum, *assessment.judged);
+  if (!is_of_listed && (!sentences.empty() || assessment.usual)) out += heading;
+  for (const std::string& sentence : sentences) out += sentence + "\n";
   if (assessment.usual) out += usual_signs_in_words(*assessment.usual, *assessment.judged) + "\n";
   return out;
 }

@@ -56,10 +56,20 @@ class OptimiseRun {
     }
     const DesignResult& design = *results_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
-    results_.assessment = std::make_shared<const Assessment>(assess_optimum(
-        study, problem, *results_.design_task, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
+    Assessment assessment = assess_optimum(study, problem, *results_.design_task, design, run_.progress());
+    if (study.optimise.scatter.asked()) {
+      assessment.is_of = AssessedDesign::WithoutScatter;
+      choose_over_draws(problem);
+    }
+    // It tries the design that is shown, which scatter may have chosen.
+    const std::vector<DesignScene> drawn = run_.loaded(draw_scenes(study, study.optimise.assessment.validation));
+    if (!drawn.empty()) {
+      run_.report("validating", 0, 1, fmt::format("{} draws", study.optimise.assessment.validation.samples));
+      assessment.validation = validate(study, *results_.design_task, design, drawn, best_of(assessment.rules));
+      assessment.seconds += assessment.validation->seconds;
+    }
+    results_.assessment = std::make_shared<const Assessment>(std::move(assessment));
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
-    if (study.optimise.scatter.asked()) choose_over_draws(problem);
     const Stopwatch clock;
     const std::size_t first = add_both_designs(problem);
     results_.steps.push_back({"before_and_after", "both designs with their errors, wide ones beside a finer mesh", clock.seconds()});
@@ -111,6 +121,7 @@ class OptimiseRun {
     const int spectra = static_cast<int>(results_.study.scenes.size());
     for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.optimise.assessment.scenes))) {
       if (scene.spectrum >= 0) scene.spectrum += spectra;
+      scene.draw = -1;  // here each of its load cases is a scene like those listed
       scenes.push_back(std::move(scene));
     }
     return scenes;
@@ -131,6 +142,7 @@ class OptimiseRun {
     task.variables = study.optimise.variables;
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;
+    task.within_draw = study.optimise.over;
     task.constraints = study.optimise.constraints;
     task.links = study.optimise.links;
     task.modification_constraints = study.optimise.modification_constraints;

@@ -163,10 +163,7 @@ std::string optimise_summary(const StudyResults& results) {
     out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
   }
   out += life_table(results, width) + shaft_table(results, width);
-  if (results.scatter) {
-    out += scatter_summary(*results.scatter, task, results.study);
-    if (results.assessment) out += "over the listed scenes, of the design without scatter:\n";
-  }
+  if (results.scatter) out += scatter_summary(*results.scatter, task, results.study);
   // Other designs are judged at the positions: so is, beside them, the optimum.
   const double compared = results.search_work ? results.search_work->objective_at_positions : design.after.objective;
   return results.assessment ? out + assessment_summary(*results.assessment, task, compared) : out;

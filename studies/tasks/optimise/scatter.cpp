@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/design_log.hpp"
+#include "optimize/design/draws.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/scatter_reading.hpp"
 
@@ -27,6 +29,13 @@ std::vector<DesignScene> draw(const Study& study, const std::vector<SceneToleran
   return load_cases(draw_scenes(study, tolerances, {.samples = draws, .seed = seed}));
 }
 
+/// Whether it is the better design: it can be analysed, it exceeds the limits by less, or its statistic is less.
+bool is_better(const ScatterDesign& design, const ScatterDesign& than) {
+  if (std::isnan(design.value) || std::isnan(than.value)) return !std::isnan(design.value);
+  const auto excess = [](const ScatterDesign& of) { return of.violation > DesignLog::tolerance ? of.violation : 0.0; };
+  return excess(design) != excess(than) ? excess(design) < excess(than) : design.value < than.value;
+}
+
 double statistic_of(const std::vector<double>& measures, const Aggregation& statistic) {
   std::vector<double> known;
   std::ranges::copy_if(measures, std::back_inserter(known), [](double m) { return !std::isnan(m); });
@@ -44,11 +53,15 @@ class ScatterRun {
     result.without = found.after.variables;
     const std::vector<SceneTolerance>& tolerances = study_.optimise.assessment.tolerances;
     report("searching over " + std::to_string(asked_.draws) + " draws");
-    result.draws = draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_);
-    const DesignTask over = over_draws(task_, result.draws, asked_.statistic);
+    const DesignTask over = over_draws(task_, draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_), asked_.statistic);
+    for (const std::vector<int>& load_cases : draws_of(over.scenes, over.combined_objective().over_spectrum())) {
+      ScatterDraw& listed = result.draws.emplace_back();
+      for (const int s : load_cases) listed.load_cases.push_back(over.scenes[static_cast<std::size_t>(s)]);
+    }
+    result.states = operating_states(study_, tolerances);
     result.design = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.optimise.solver);
     predict(result);
-    result.without_value = statistic_over(over, found.after.analysis.modification, over.combined_objective());
+    result.without_value = statistic_over(over, found.after.analysis.modification);
     try_afresh(found, result);
     price_classes(found, result);
     return result;
@@ -59,16 +72,16 @@ class ScatterRun {
     if (progress_) progress_(label, 0, 1, "");
   }
 
-  static double statistic_over(const DesignTask& task, const PerGear<Modification>& modification, const Objective& objective) {
+  static double statistic_over(const DesignTask& task, const PerGear<Modification>& modification) {
     const DesignProblem problem(task);
-    return problem.value(objective, problem.analyse_design(modification));
+    return statistic_over_draws(problem, task.combined_objective(), problem.analyse_design(modification));
   }
 
   void predict(ScatterResult& result) const {
     if (asked_.predicted_from == 0 || result.design.status == SolverStatus::Failed) return;
     report("predicting from " + std::to_string(asked_.predicted_from) + " further draws");
     const auto scenes = draw(study_, study_.optimise.assessment.tolerances, asked_.predicted_from, asked_.predicted_seed, load_cases_);
-    result.predicted = predict_statistic(over_draws(task_, scenes, asked_.statistic), asked_.predicted_from, result.design.modification);
+    result.predicted = predict_statistic(over_draws(task_, scenes, asked_.statistic), result.design.modification);
   }
 
   void try_afresh(const DesignResult& found, ScatterResult& result) const {
@@ -86,24 +99,37 @@ class ScatterRun {
     result.fresh_seconds = clock.seconds();
   }
 
-  /// Each class from the design of the one before: neighbours are near.
+  /// The search of a class begins where the study's own does, and again at the design that the study's own found; the better of both is the design of the class.
+  /// So a class has the same design whatever the others of the list are, and the study's own class has that of the study.
+  ScatterDesign search_class(const DesignTask& over, const DesignResult& found, const ScatterResult& result) const {
+    ScatterDesign first = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.optimise.solver);
+    ScatterDesign second = search_over_draws(over, unscaled(result.design, task_), study_.optimise.solver);
+    return is_better(second, first) ? second : first;
+  }
+
   void price_classes(const DesignResult& found, ScatterResult& result) const {
     const Stopwatch clock;
-    std::vector<double> start = result.without;
     for (const int tolerance_class : asked_.classes) {
       report("searching the right design of class " + std::to_string(tolerance_class));
+      const bool is_own = asked_.iso_1328_class == tolerance_class;
       const auto tolerances = with_class(study_.optimise.assessment.tolerances, task_.pair, tolerance_class);
       const DesignTask over = over_draws(task_, draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_), asked_.statistic);
-      ClassDesign priced{.tolerance_class = tolerance_class, .design = search_over_draws(over, start, study_.optimise.solver)};
-      const DesignProblem problem(over);
-      priced.without_scatter = problem.objective(problem.analyse_design(found.after.analysis.modification));
-      const DesignAnalysis analysis = problem.analyse_design(priced.design.modification);
-      priced.contact_stress = problem.value({{*find_term("peak_contact_stress")}, asked_.statistic}, analysis);
-      priced.te = problem.value({{*find_term("te_peak_to_peak")}, asked_.statistic}, analysis);
-      for (std::size_t i = 0; i < start.size(); ++i) start[i] = task_.variables[i].unscaled(priced.design.x[static_cast<Eigen::Index>(i)]);
+      ClassDesign priced{.tolerance_class = tolerance_class, .design = is_own ? result.design : search_class(over, found, result)};
+      priced.without_scatter = is_own ? result.without_value : statistic_over(over, found.after.analysis.modification);
+      add_outputs(over, priced);
       result.classes.push_back(std::move(priced));
     }
     result.classes_seconds = clock.seconds();
+  }
+
+  /// What else a class costs. The output that was searched for has the value of the search.
+  void add_outputs(const DesignTask& over, ClassDesign& priced) const {
+    const bool has_stress = is_objective(task_, Output::PeakContactStress), has_te = is_objective(task_, Output::TePeakToPeak);
+    const DesignProblem problem(over);
+    const DesignAnalysis analysis = problem.analyse_design(priced.design.modification);
+    const auto statistic = [&](const char* output) { return statistic_over_draws(problem, {{*find_term(output)}, asked_.statistic}, analysis); };
+    priced.contact_stress = has_stress ? priced.design.value : statistic("peak_contact_stress");
+    priced.te = has_te ? priced.design.value : statistic("te_peak_to_peak");
   }
 
   const Study& study_;
@@ -114,6 +140,16 @@ class ScatterRun {
 };
 
 }  // namespace
+
+bool is_objective(const DesignTask& task, Output output) {
+  return task.objective.size() == 1 && task.objective.front().output == output && task.objective.front().weight == 1.0;
+}
+
+std::vector<double> unscaled(const ScatterDesign& design, const DesignTask& task) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < task.variables.size(); ++i) values.push_back(task.variables[i].unscaled(design.x[static_cast<Eigen::Index>(i)]));
+  return values;
+}
 
 ScatterResult run_scatter(const Study& study, const DesignTask& task, const DesignResult& found, const LoadCases& load_cases,
                           const ProgressReport& progress) {

@@ -17,12 +17,6 @@ Json variables_of(const std::vector<double>& values, const DesignTask& task) {
   return json;
 }
 
-std::vector<double> unscaled(const ScatterDesign& design, const DesignTask& task) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < task.variables.size(); ++i) values.push_back(task.variables[i].unscaled(design.x[static_cast<Eigen::Index>(i)]));
-  return values;
-}
-
 Json search_json(const ScatterDesign& design, const DesignTask& task) {
   Json json{{"status", to_string(design.status)},
             {"message", design.message},
@@ -53,8 +47,9 @@ Json deciding_json(const ScatterResult& result) {
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return result.design.weights[a] > result.design.weights[b]; });
   if (order.size() > most_shown) order.resize(most_shown);
   return list(order, [&](std::size_t s) -> Json {
-    return {{"draw", result.draws[s].name},
-            {"torque_Nm", in_Nm(result.draws[s].torque)},
+    const std::vector<DesignScene>& load_cases = result.draws[s].load_cases;
+    return {{"draw", name_of_draw(load_cases.front().draw)},
+            {"torque_Nm", load_cases.size() == 1 ? Json(in_Nm(load_cases.front().torque)) : Json()},
             {"weight", result.design.weights[s]},
             {"value", result.design.measures[s]}};
   });
@@ -76,6 +71,9 @@ Json scatter_json(const ScatterResult& result, const DesignTask& task, const Stu
             {"unit", task.objective_unit()},
             {"draws", asked.draws},
             {"seed", asked.seed},
+            {"states", list(result.states, [](const OperatingState& state) -> Json { return state.scene.name; })},
+            {"load_cases_of_a_draw", result.draws.front().load_cases.size()},
+            {"within_draw", to_string(task.within_draw)},
             {"tolerances", list(study.optimise.assessment.tolerances, [](const SceneTolerance& t) -> Json {
                return {{"name", t.path}, {"distribution", t.in_words}, {"added", t.added}};
              })}};
@@ -157,8 +155,8 @@ std::vector<NamedText> scatter_tables(const ScatterResult& result, const DesignT
 std::string scatter_summary(const ScatterResult& result, const DesignTask& task, const Study& study) {
   const ScatterTable& asked = study.optimise.scatter;
   const std::string statistic = statistic_in_words(asked.statistic), unit = task.objective_unit();
-  std::string out = fmt::format("\n{} over {} draws: {:.5g} {} without scatter in the search, {:.5g} {} with it ({:+.1f} %); {} in {:.1f} s\n",
-                                statistic, asked.draws, result.without_value, unit, result.design.value, unit,
+  std::string out = fmt::format("\n{} over {} draws{}: {:.5g} {} without scatter in the search, {:.5g} {} with it ({:+.1f} %); {} in {:.1f} s\n",
+                                statistic, asked.draws, load_cases_in_words(study), result.without_value, unit, result.design.value, unit,
                                 percent * (result.design.value / result.without_value - 1.0), to_string(result.design.status), result.design.seconds);
   const PredictedStatistic& predicted = result.predicted;
   if (!std::isnan(predicted.value)) {
@@ -174,8 +172,10 @@ std::string scatter_summary(const ScatterResult& result, const DesignTask& task,
                        result.fresh[0].statistic, unit, result.fresh[1].statistic, result.fresh[2].statistic, percent * std::abs(error));
   }
   for (const ClassDesign& c : result.classes) {
-    out += fmt::format("class {:>2}: {:.5g} {}, peak contact stress {:.5g} MPa, transmission error {:.3g} um\n", c.tolerance_class, c.design.value,
-                       unit, c.contact_stress, c.te);
+    out += fmt::format("class {:>2}: {:.5g} {}", c.tolerance_class, c.design.value, unit);
+    if (!is_objective(task, Output::PeakContactStress)) out += fmt::format(", peak contact stress {:.5g} MPa", c.contact_stress);
+    if (!is_objective(task, Output::TePeakToPeak)) out += fmt::format(", transmission error {:.3g} um", c.te);
+    out += "\n";
   }
   return out;
 }

@@ -66,7 +66,7 @@ TEST_CASE("A screened prediction is the statistic of all draws by the task's own
   for (const Aggregation& statistic : {Aggregation{Aggregate::Quantile, 2.0, 0.9}, Aggregation{Aggregate::Cvar, 2.0, 0.8}}) {
     CAPTURE(to_string(statistic));
     const DesignTask task = drawn(statistic, 150, 1);
-    const PredictedStatistic predicted = predict_statistic(task, 150, given);
+    const PredictedStatistic predicted = predict_statistic(task, given);
     const std::vector<double> all = validate_designs(task, task.scenes, {{"all", "", given}}).front().measures;
     CHECK(predicted.value == aggregate(statistic, all, std::vector<double>(150, 1.0)));
     CHECK(predicted.failed == 0);
@@ -82,7 +82,7 @@ TEST_CASE("The statistic over many fresh draws lies in the predicted interval", 
   for (const Aggregation& statistic : {Aggregation{Aggregate::Quantile, 2.0, 0.9}, Aggregation{Aggregate::Cvar, 2.0, 0.8},
                                        Aggregation{Aggregate::MeanPlusSigmas, 2.0}, Aggregation{Aggregate::Mean}}) {
     CAPTURE(to_string(statistic));
-    const PredictedStatistic predicted = predict_statistic(drawn(statistic, 100, 3), 100, given);
+    const PredictedStatistic predicted = predict_statistic(drawn(statistic, 100, 3), given);
     const double value = aggregate(statistic, measures, std::vector<double>(many, 1.0));
     CHECK(predicted.low < predicted.value);
     CHECK(predicted.value < predicted.high);

@@ -48,6 +48,50 @@ TEST_CASE("Drawn scenes are the nominal one with its toleranced values replaced 
   CHECK(tilt == Approx(0.0).margin(0.005 * largest_tilt));
 }
 
+TEST_CASE("A draw has a scene in each operating state, with the same drawn values", "[studies][assessment][scatter]") {
+  const std::string scenes = R"(
+[[scenes]]
+name = "drive"
+[[scenes]]
+name = "drive, bent"
+misalignment.mesh_misalignment = 9
+pinion.error.twist = 5
+weight = 2
+[[scenes]]
+name = "coast"
+working_flank = "left"
+load.torque = 120
+misalignment.intersecting = -2
+)";
+  const Study study = tolerant_study(scenes);
+  const std::vector<OperatingState> states = operating_states(study, study.optimise.assessment.tolerances);
+  REQUIRE(states.size() == 2);  // misalignment, errors and weights make none
+  CHECK(states[0].scene.name == "drive");
+  CHECK(states[0].weight == 1.0);
+  CHECK(states[1].scene.name == "coast");
+  CHECK(states[1].weight == Approx(1.0 / 3.0));
+  const std::vector<Scene> drawn = draw_scenes(study, {16, 1});
+  REQUIRE(drawn.size() == 2 * 16);
+  const double apart = 4.0 * units::arcmin;  // of the listed scenes; the drawn tilt is added to either
+  for (std::size_t i = 0; i < 16; ++i) {
+    const Scene &drive = drawn[2 * i], &coast = drawn[2 * i + 1];
+    CHECK(drive.draw == static_cast<int>(i));
+    CHECK(coast.draw == static_cast<int>(i));
+    CHECK(drive.torques == study.scenes[0].torques);
+    CHECK(coast.torques == study.scenes[2].torques);
+    CHECK(coast.working_flank == WorkingFlank::Left);
+    CHECK(drive.misalignment.mesh_misalignment == coast.misalignment.mesh_misalignment);
+    CHECK(drive.error.pinion.helix_slope == coast.error.pinion.helix_slope);
+    CHECK(drive.misalignment.intersecting - coast.misalignment.intersecting == Approx(apart).epsilon(1e-12));
+  }
+  // A torque that is drawn is the same in both: they differ in nothing but the flank.
+  const std::string torque = "\n[optimise.tolerances]\n\"load.torque\" = { uniform = [100, 300] }\n",
+                    two = "[[scenes]]\n[[scenes]]\nload.torque = 120\n";
+  const Study of_torque = study_texts::read(torque + two);
+  CHECK(operating_states(of_torque, of_torque.optimise.assessment.tolerances).size() == 1);
+  CHECK(operating_states(of_torque, {}).size() == 2);
+}
+
 TEST_CASE("A scene depends on the seed and its number only", "[studies][assessment][determinism]") {
   const Study study = tolerant_study();
   const std::vector<Scene> few = draw_scenes(study, {8, 1}), many = draw_scenes(study, {64, 1}), other = draw_scenes(study, {8, 2});

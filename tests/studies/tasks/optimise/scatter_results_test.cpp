@@ -1,0 +1,91 @@
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "studies/analysis/run_study.hpp"
+#include "studies/base/json_format.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/results/tables.hpp"
+#include "studies/study_file/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
+
+/// What the results say of a search over draws.
+namespace flankwright::studies {
+namespace {
+
+using Catch::Contains;
+using study_texts::results_of;
+
+/// The small optimisation over few draws, without its constraint.
+std::string drawn_study(const std::string& scatter = "", const std::string& scenes = "") {
+  std::string text = small::optimisation();
+  text.erase(text.find("[optimise.constraints]"));
+  return text + scenes + R"(
+[optimise.comparison]
+rules = false
+[optimise.tolerances]
+"misalignment.mesh_misalignment" = { normal = [0, 6] }
+[optimise.validation]
+samples = 24
+seed = 2
+[optimise.scatter]
+draws = 24
+statistic = { quantile = 0.9 }
+iso_1328_class = 6
+predicted_from = 0
+)" + scatter;
+}
+
+const std::string coast = R"(
+[[scenes]]
+name = "coast"
+working_flank = "left"
+load.torque = 1400
+)";
+
+}  // namespace
+
+TEST_CASE("The validation tries the design that the search over draws found", "[studies][scatter][assessment]") {
+  const Json optimise = results_of(drawn_study("fresh = 24\nfresh_seed = 2\n"))["optimise"];
+  const Json &validated = optimise["validation"]["designs"], &fresh = optimise["scatter"]["fresh"]["designs"];
+  REQUIRE(fresh[2]["name"] == "after");
+  // The same draws of the same design.
+  for (const char* figure : {"mean", "greatest"}) {
+    CHECK(validated[0][figure] == fresh[0][figure]);
+    CHECK(validated[1][figure] == fresh[2][figure]);
+  }
+  CHECK(fresh[1]["mean"] != fresh[2]["mean"]);  // the one found without scatter is another
+  CHECK_THAT(optimise["assessed_design"].get<std::string>(), Contains("over the listed scenes"));
+  CHECK(optimise["governing"]["design"] == optimise["assessed_design"]);
+}
+
+TEST_CASE("A draw runs through all operating states, and results count draws", "[studies][scatter]") {
+  const StudyResults results = run_study(parse_study(drawn_study("", coast), "drive-and-coast.toml"));
+  const Json optimise = Json::parse(results_json(results))["optimise"], &scatter = optimise["scatter"];
+  CHECK(scatter["states"] == Json({"aligned", "coast"}));
+  CHECK(scatter["load_cases_of_a_draw"] == 2);
+  CHECK(scatter["draws"] == 24);
+  CHECK(optimise["validation"]["samples"] == 24);
+  CHECK_THAT(summary_table(results), Contains("over 24 draws, each in 2 operating states (aligned, coast), the worst of which counts"));
+  // The coast state has the larger torque: aligned, it has less stress than nine of ten drawn gears have in the worst of both.
+  double aligned_coast = 0.0;
+  for (const Json& scene : optimise["scenes"]) {
+    if (scene["name"] == "coast") aligned_coast = scene["after"].get<double>();
+  }
+  CHECK(scatter["value"].get<double>() > aligned_coast);
+}
+
+TEST_CASE("A class has the same design whatever the list, and the study's own class has the study's design", "[studies][scatter]") {
+  const Json some = results_of(drawn_study("classes = [4, 6]\n"))["optimise"]["scatter"];
+  const Json one = results_of(drawn_study("classes = [4]\n"))["optimise"]["scatter"]["classes"][0];
+  CHECK(some["classes"][0]["variables"] == one["variables"]);
+  CHECK(some["classes"][0]["value"] == one["value"]);
+  CHECK(some["classes"][1]["value"] == some["value"]);
+  CHECK(some["classes"][1]["variables"] == some["variables"]);
+  // The contact stress is the objective: a class has one value of it.
+  for (const Json& row : some["classes"]) CHECK(row["peak_contact_stress_MPa"] == row["value"]);
+  CHECK(one["value"].get<double>() <= some["value"].get<double>());  // finer gears
+}
+
+}  // namespace flankwright::studies
