@@ -132,9 +132,10 @@ FlankDrawing make_drawing(const GearPair& pair, Member member, const Modificatio
   drawing.tolerances = flank_tolerances(ToleranceData::of(pair, member), terms.tolerance_class);
   const FlankTolerances& t = drawing.tolerances;
   for (const double share : {-0.4, 0.0, 0.4}) drawing.profiles.push_back(profile_at(gear, flank, share * gear.data.face_width, t.profile_total));
+  // In the middle of the profile, in roll length, the lead is as asked for.
+  const double start = gear.roll_length_at(gear.active_root_radius), tip = gear.roll_length_at(gear.tip_form_radius);
   for (const double share : {0.1, 0.5, 0.9}) {
-    drawing.helices.push_back(
-        helix_at(gear, flank, gear.active_root_radius + share * (gear.tip_form_radius - gear.active_root_radius), t.helix_total));
+    drawing.helices.push_back(helix_at(gear, flank, std::hypot(gear.base_radius, start + share * (tip - start)), t.helix_total));
   }
   drawing.lines = drawing_lines(pair, member, modification, t, terms);
   return drawing;

@@ -100,7 +100,7 @@ std::string chart(const std::vector<FlankTrace>& traces, double top, const Chart
     out += panel(window, trace, text.at(trace.at), text.below);
     window.left += panel_width + between_panels;
   }
-  out += text_at(left + 1.5 * panel_width + between_panels, window.top + window.height + 32.0, text.axis, "middle");
+  out += text_at(left + 1.5 * panel_width + between_panels, window.top + window.height + (text.below ? 47.0 : 32.0), text.axis, "middle");
   return out + "</g>\n";
 }
 

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "core/base/units.hpp"
 #include "core/gear/flank_tolerances.hpp"
 
 namespace flankwright::studies {
@@ -37,7 +36,7 @@ struct FlankDrawing {
   int tolerance_class{0};
   FlankTolerances tolerances;
   std::vector<FlankTrace> profiles;  ///< at -0.4 b, 0 and 0.4 b; from the start of the active profile to the tip
-  std::vector<FlankTrace> helices;   ///< at 0.1, 0.5 and 0.9 of the active depth
+  std::vector<FlankTrace> helices;   ///< at 0.1, 0.5 and 0.9 of the active profile, in roll length
   double base_radius{not_given};     ///< r_b, between roll lengths and diameters [mm]
   std::vector<std::string> lines;    ///< amounts and tolerances, as text
 };

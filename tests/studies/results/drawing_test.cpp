@@ -156,6 +156,12 @@ TEST_CASE("A drawing states what grinding brings with a lead slope and with crow
   CHECK(number_behind(twist, "= ") == Approx(natural_twist(pair, Member::Pinion, ground(0.0, 20.0)) / units::um).margin(decimal));
   CHECK(number_behind(lines_with(crowned, "C_α, profile crowning").first, "= ") == Approx(20.0 * shift * shift).margin(decimal));
 
+  // The helix in the middle of the profile is the crowning alone; those beside it lean.
+  const auto lean = [&](std::size_t trace) { return crowned.helices[trace].deviation.back() - crowned.helices[trace].deviation.front(); };
+  constexpr double round_off = 1e-9;  // mm: the middle of the profile from two roots
+  CHECK(lean(1) == Approx(0.0).margin(round_off));
+  CHECK(lean(0) * lean(2) < 0.0);
+
   // A profile slope that is set against it leaves nothing of it.
   Modification corrected = ground(14.0, 0.0);
   set(corrected, parameter_of("profile_slope"), -number_behind(slope, "= ") * units::um);
