@@ -5,22 +5,30 @@
 #include <set>
 
 #include "optimize/design/design_output.hpp"
-#include "optimize/design/task_checks.hpp"
 
 namespace flankwright {
 
 namespace {
 
-/// The load cases that may decide, rising; all of them where the objective is no worst case, or is a sum over a spectrum.
+/// Of the outputs of an objective the largest.
+double growth_of(const Objective& objective) {
+  double growth = 1.0;
+  for (const ObjectiveTerm& term : objective.terms) growth = std::max(growth, design_output(term.output).growth);
+  return growth;
+}
+
+/// The load cases that may decide, rising; all of them where the objective is no worst case, or a sum over a spectrum is bounded. The load cases of
+/// a spectrum have the same measure.
 std::vector<int> deciding(const DesignProblem& problem, const DesignReport& report) {
   constexpr double margin = 2.0 * change_by_intervals;
   const DesignTask& task = problem.task();
   std::set<int> scenes;
-  const auto over_spectrum = [](const ObjectiveTerm& term) { return design_output(term.output).over_spectrum; };
-  const bool all = task.over != Aggregate::Worst || std::ranges::any_of(terms_of(task), over_spectrum);
+  const auto is_sum = [](const OutputConstraint& constraint) { return design_output(constraint.output.output).over_spectrum; };
+  const bool all = task.over != Aggregate::Worst || std::ranges::any_of(task.constraints, is_sum);
+  const double near = margin * growth_of(task.combined_objective());
   const double worst = std::ranges::max(report.scene_measures);
   for (int s = 0; s < problem.scenes(); ++s) {
-    if (all || report.scene_measures[static_cast<std::size_t>(s)] >= worst - margin * std::abs(worst)) scenes.insert(s);
+    if (all || report.scene_measures[static_cast<std::size_t>(s)] >= worst - near * std::abs(worst)) scenes.insert(s);
   }
   for (const OutputConstraint& constraint : task.constraints) {
     double largest = -INFINITY;
@@ -36,27 +44,33 @@ std::vector<int> deciding(const DesignProblem& problem, const DesignReport& repo
   return {scenes.begin(), scenes.end()};
 }
 
+/// Of constraints on damage in parts of what they may change by.
 double largest_excess(const DesignTask& task, const DesignReport& report) {
   double excess = -INFINITY;
-  for (std::size_t c = 0; c < task.constraints.size(); ++c) excess = std::max(excess, task.constraints[c].excess(report.constraint_values[c]));
+  for (std::size_t c = 0; c < task.constraints.size(); ++c) {
+    const OutputConstraint& constraint = task.constraints[c];
+    excess = std::max(excess, constraint.excess(report.constraint_values[c]) / design_output(constraint.output.output).growth);
+  }
   return excess;
 }
 
 }  // namespace
 
 bool needs_more_intervals(const DesignProblem& problem, const DesignReport& report, bool infeasible) {
+  const DesignTask& task_of_search = problem.task();
   const std::vector<int> scenes = deciding(problem, report);
-  DesignTask task = problem.task();
+  DesignTask task = task_of_search;
   task.scenes.clear();
-  for (const int s : scenes) task.scenes.push_back(problem.task().scenes[static_cast<std::size_t>(s)]);
+  for (const int s : scenes) task.scenes.push_back(task_of_search.scenes[static_cast<std::size_t>(s)]);
   task.resolution.quadrature.intervals *= 2;
   const DesignProblem finer(std::move(task));
   const DesignReport seen = report_design(finer, finer.analyse_design(report.analysis.modification));
   if (!std::ranges::all_of(seen.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return false;
-  const double excess = largest_excess(problem.task(), report), seen_excess = largest_excess(problem.task(), seen);
+  const double excess = largest_excess(task_of_search, report), seen_excess = largest_excess(task_of_search, seen);
   if (infeasible) return std::abs(seen_excess - excess) > change_by_intervals * (1.0 + excess);
   if (seen_excess > std::max(excess, 0.0) + 0.5 * change_by_intervals) return true;
-  return std::abs(seen.objective - report.objective) > change_by_intervals * std::abs(report.objective);
+  return std::abs(seen.objective - report.objective) >
+         change_by_intervals * growth_of(task_of_search.combined_objective()) * std::abs(report.objective);
 }
 
 }  // namespace flankwright

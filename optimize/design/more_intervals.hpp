@@ -4,7 +4,8 @@
 
 namespace flankwright {
 
-/// What a design found by a search may change by, relative to its value, where its contact lines have twice the intervals [-].
+/// What a design found by a search may change by, relative to its value, where its contact lines have twice the intervals [-]. Of damage, which grows with a
+/// power of the stress (DesignOutput::growth), as many times more.
 inline constexpr double change_by_intervals = 0.02;
 
 /// Whether the intervals along the contact lines are too few for what a design was chosen by. Twice as many change the objective by more than

@@ -14,6 +14,10 @@ inline constexpr double governs_within = 0.01;
 /// the same torque then counts in every design.
 std::vector<bool> governing_cases(const StudyResults& results);
 
+/// Which load cases use the strength of flanks or roots most, likewise: the reciprocal of their least safety by local stress is within governs_within of the
+/// largest of its design.
+std::vector<bool> most_utilised_cases(const StudyResults& results, const LifeModel& life);
+
 /// Which load cases have their contact points in the results, likewise: all, or where the study asks for it (`output.points = "governing"`) those that govern.
 std::vector<bool> cases_with_points(const StudyResults& results);
 

@@ -67,7 +67,7 @@ class StudyRun {
   void hold_against_finer(std::size_t first);
 
   /// Adds refined peaks with and without spikes, and the load factors that follow, to the load cases of the results. Where peaks are sampled, as in an
-  /// optimisation, only the load cases that govern have them, and only for a pair with a strength, whose safeties take the load factors.
+  /// optimisation, only the load cases that use the strength most have them, for their safeties.
   void rate();
 
   /// Adds what the load cases do to life, after rate(): safeties take its load factors.

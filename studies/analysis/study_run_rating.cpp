@@ -22,16 +22,16 @@ Quadrature rating_quadrature(const Fidelity& fidelity) {
   return quadrature;
 }
 
-/// The load cases whose load factors are sought: all, or where only the strength asks for them, as in an optimisation, those that govern.
+/// The load cases whose load factors are sought: all, or where only the strength asks for them, as in an optimisation, those that use it most.
 std::vector<LoadedResult*> rated_cases(StudyResults& results) {
   const Study& study = results.study;
   const bool all = locates_peaks(study);
   const bool by_strength = has_strength(study) && study.cycle.phases.empty() && !study.cycle.locate_peaks.has_value();
   std::vector<LoadedResult*> rated;
   if (!all && !by_strength) return rated;
-  const std::vector<bool> governs = governing_cases(results);
+  const std::vector<bool> asked = all ? std::vector<bool>(results.loaded.size(), true) : most_utilised_cases(results, *life_model(study));
   for (std::size_t i = 0; i < results.loaded.size(); ++i) {
-    if (results.loaded[i].cycle.usable() && (all || governs[i])) rated.push_back(&results.loaded[i]);
+    if (results.loaded[i].cycle.usable() && asked[i]) rated.push_back(&results.loaded[i]);
   }
   return rated;
 }
@@ -83,7 +83,9 @@ void StudyRun::find_edge_contact() {
     }
     if (!loaded.edge_contact || !results_.study.cycle.phases.empty()) return;
     const double spacing = 1.0 / static_cast<double>(results_.phases.size());
-    const MeshAt at = mesh_at(loaded.condition, loaded.torque, true, {}, results_.study.fidelity.quadrature);
+    Quadrature quadrature = results_.study.fidelity.quadrature;
+    quadrature.intervals = std::max(1, quadrature.intervals / 2);
+    const MeshAt at = mesh_at(loaded.condition, loaded.torque, true, {}, quadrature);
     loaded.edge_contact = edge_contact_start_near(at, loaded.condition, loaded.torque, *loaded.edge_contact, spacing);
   });
   if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;

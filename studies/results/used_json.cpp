@@ -87,7 +87,7 @@ Json cycle_json(const StudyResults& results) {
   return {{"positions", cycle.positions},
           {"phases", cycle.phases},
           {"peaks", locates_peaks(results.study) ? "refined"
-                    : are_rated                  ? "refined in the load cases that govern"
+                    : are_rated                  ? "refined in the load cases that use the strength most"
                                                  : "sampled"},
           {"automatic", cycle.automatic_positions && cycle.phases.empty()}};
 }

@@ -171,6 +171,7 @@ TEST_CASE("Measures weigh the outputs in the units of a report", "[optimize][des
 
 TEST_CASE("Intervals along the contact lines are too few where twice as many change the objective", "[optimize][design]") {
   DesignTask task = helical();
+  task.objective = {term(Output::TePeakToPeak)};
   task.resolution.quadrature = {QuadratureRule::Graded, 2};
   const auto judged = [&](int intervals) {
     DesignTask of = task;

@@ -45,7 +45,7 @@ DesignTask drawn(const Aggregation& statistic, const std::vector<State>& states)
   return task;
 }
 
-SolverOptions slsqp() {
+SolverOptions by_slsqp() {
   SolverOptions options;
   options.name = "nlopt:slsqp";
   return options;
@@ -60,7 +60,7 @@ PerGear<Modification> crowned() {
 }
 
 /// Statistics that do not fall where no measure falls.
-const Aggregation statistics[]{{Aggregate::Quantile, 2.0, 0.9}, {Aggregate::Cvar, 2.0, 0.8}, {Aggregate::Mean}, {Aggregate::Worst}};
+const Aggregation statistics_tried[]{{Aggregate::Quantile, 2.0, 0.9}, {Aggregate::Cvar, 2.0, 0.8}, {Aggregate::Mean}, {Aggregate::Worst}};
 
 double value_of(const DesignTask& task) {
   const DesignProblem problem(task);
@@ -85,7 +85,7 @@ TEST_CASE("A draw lists its load cases, a load spectrum once and a scene of no d
 }
 
 TEST_CASE("The statistic of two operating states is at least that of each by itself with the same draws", "[optimize][design][scatter]") {
-  for (const Aggregation& statistic : statistics) {
+  for (const Aggregation& statistic : statistics_tried) {
     CAPTURE(to_string(statistic));
     const double both = value_of(drawn(statistic, {drive, coast}));
     CHECK(both >= value_of(drawn(statistic, {drive})));
@@ -96,10 +96,10 @@ TEST_CASE("The statistic of two operating states is at least that of each by its
 
 TEST_CASE("A search over draws of two states finds the statistic that its design has, and none below that of one state",
           "[optimize][design][scatter]") {
-  for (const Aggregation& statistic : {statistics[0], statistics[1], statistics[2]}) {
+  for (const Aggregation& statistic : {statistics_tried[0], statistics_tried[1], statistics_tried[2]}) {
     CAPTURE(to_string(statistic));
     const DesignTask task = drawn(statistic, {drive, coast});
-    const ScatterDesign both = search_over_draws(task, start, slsqp());
+    const ScatterDesign both = search_over_draws(task, start, by_slsqp());
     CHECK(both.status == SolverStatus::Converged);
     REQUIRE(both.measures.size() == draws);
     CHECK(both.decided_by <= draws);
@@ -111,14 +111,14 @@ TEST_CASE("A search over draws of two states finds the statistic that its design
     // Less freedom with more load cases, but for the tolerance of the searches.
     constexpr double of_searches = 5e-3;
     for (const State& state : {drive, coast})
-      CHECK(both.value >= search_over_draws(drawn(statistic, {state}), start, slsqp()).value * (1.0 - of_searches));
+      CHECK(both.value >= search_over_draws(drawn(statistic, {state}), start, by_slsqp()).value * (1.0 - of_searches));
   }
 }
 
 TEST_CASE("The model of a draw with two load cases is exact at the design analysed", "[optimize][design][scatter]") {
   for (const Aggregation& within : {Aggregation{Aggregate::Worst}, Aggregation{Aggregate::Mean}}) {
     CAPTURE(to_string(within));
-    DesignTask task = drawn(statistics[1], {drive, coast});
+    DesignTask task = drawn(statistics_tried[1], {drive, coast});
     task.within_draw = within;
     DesignProblem problem(task);
     StatisticModel model(problem, task.combined_objective(), within);
@@ -136,12 +136,12 @@ TEST_CASE("The model of a draw with two load cases is exact at the design analys
 }
 
 TEST_CASE("Designs are tried and predicted by draws and not by their load cases", "[optimize][assessment][scatter]") {
-  const DesignTask task = drawn(statistics[0], {drive, coast});
+  const DesignTask task = drawn(statistics_tried[0], {drive, coast});
   const std::vector<double> both = validate_designs(task, task.scenes, {{"crowned", "", crowned()}}).front().measures;
   REQUIRE(both.size() == draws);
   std::vector<double> worst(draws, 0.0);
   for (const State& state : {drive, coast}) {
-    const DesignTask alone = drawn(statistics[0], {state});
+    const DesignTask alone = drawn(statistics_tried[0], {state});
     const std::vector<double> measures = validate_designs(alone, alone.scenes, {{"crowned", "", crowned()}}).front().measures;
     for (std::size_t i = 0; i < draws; ++i) worst[i] = std::max(worst[i], measures[i]);
   }
