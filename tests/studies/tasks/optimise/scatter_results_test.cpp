@@ -23,7 +23,7 @@ std::string drawn_study(const std::string& scatter = "", const std::string& scen
   text.erase(text.find("[optimise.constraints]"));
   return text + scenes + R"(
 [optimise.comparison]
-rules = false
+rules = "off"
 [optimise.tolerances]
 "misalignment.mesh_misalignment" = { normal = [0, 6] }
 [optimise.validation]
