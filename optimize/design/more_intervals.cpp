@@ -17,10 +17,12 @@ double growth_of(const Objective& objective) {
   return growth;
 }
 
+/// What brings a load case near to deciding, relative to the worst objective or to a limit [-].
+constexpr double margin = 2.0 * change_by_intervals;
+
 /// The load cases that may decide, rising; all of them where the objective is no worst case, or a sum over a spectrum is bounded. The load cases of
 /// a spectrum have the same measure.
 std::vector<int> deciding(const DesignProblem& problem, const DesignReport& report) {
-  constexpr double margin = 2.0 * change_by_intervals;
   const DesignTask& task = problem.task();
   std::set<int> scenes;
   const auto is_sum = [](const OutputConstraint& constraint) { return design_output(constraint.output.output).over_spectrum; };
@@ -54,9 +56,30 @@ double largest_excess(const DesignTask& task, const DesignReport& report) {
   return excess;
 }
 
+/// How far the load case that is worst in a report falls behind another where it is seen more finely, relative to the worst there [-]; 0 where the objective is no
+/// worst case.
+/// @param scenes  of `seen`, as the report numbers them
+double lead_lost(const DesignTask& task, const DesignReport& report, const DesignReport& seen, const std::vector<int>& scenes) {
+  if (task.over != Aggregate::Worst) return 0.0;
+  const auto worst = std::ranges::max_element(report.scene_measures) - report.scene_measures.begin();
+  const auto place = std::ranges::find(scenes, static_cast<int>(worst)) - scenes.begin();
+  const double largest = std::ranges::max(seen.scene_measures);
+  return largest > 0.0 ? 1.0 - seen.scene_measures[static_cast<std::size_t>(place)] / largest : 0.0;
+}
+
+/// FinerLook::excess_changes.
+std::vector<double> excess_changes(const DesignTask& task, const DesignReport& report, const DesignReport& seen) {
+  std::vector<double> changes;
+  for (std::size_t c = 0; c < task.constraints.size(); ++c) {
+    const double excess = task.constraints[c].excess(report.constraint_values[c]);
+    changes.push_back(excess < -margin ? 0.0 : four_times_by_twice * (task.constraints[c].excess(seen.constraint_values[c]) - excess));
+  }
+  return changes;
+}
+
 }  // namespace
 
-bool needs_more_intervals(const DesignProblem& problem, const DesignReport& report, bool infeasible) {
+FinerLook look_finer(const DesignProblem& problem, const DesignReport& report, bool infeasible) {
   const DesignTask& task_of_search = problem.task();
   const std::vector<int> scenes = deciding(problem, report);
   DesignTask task = task_of_search;
@@ -65,12 +88,18 @@ bool needs_more_intervals(const DesignProblem& problem, const DesignReport& repo
   task.resolution.quadrature.intervals *= 2;
   const DesignProblem finer(std::move(task));
   const DesignReport seen = report_design(finer, finer.analyse_design(report.analysis.modification));
-  if (!std::ranges::all_of(seen.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return false;
+  if (!std::ranges::all_of(seen.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return {};
+  FinerLook look{.excess_changes = excess_changes(task_of_search, report, seen)};
   const double excess = largest_excess(task_of_search, report), seen_excess = largest_excess(task_of_search, seen);
-  if (infeasible) return std::abs(seen_excess - excess) > change_by_intervals * (1.0 + excess);
-  if (seen_excess > std::max(excess, 0.0) + 0.5 * change_by_intervals) return true;
-  return std::abs(seen.objective - report.objective) >
-         change_by_intervals * growth_of(task_of_search.combined_objective()) * std::abs(report.objective);
+  if (infeasible) {
+    look.needs_more = std::abs(seen_excess - excess) > change_by_doubling * (1.0 + excess);
+    return look;
+  }
+  const double growth = growth_of(task_of_search.combined_objective());
+  look.needs_more = seen_excess > std::max(excess, 0.0) + 0.5 * change_by_doubling ||
+                    std::abs(seen.objective - report.objective) > change_by_doubling * growth * std::abs(report.objective) ||
+                    lead_lost(task_of_search, report, seen, scenes) > change_by_doubling * growth;
+  return look;
 }
 
 }  // namespace flankwright

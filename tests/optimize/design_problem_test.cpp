@@ -177,7 +177,7 @@ TEST_CASE("Intervals along the contact lines are too few where twice as many cha
     of.resolution.quadrature = {rule, intervals};
     DesignProblem problem(of);
     const DesignReport report = report_design(problem, problem.analyse_given());
-    return std::pair{needs_more_intervals(problem, report, false), report.objective};
+    return std::pair{look_finer(problem, report, false).needs_more, report.objective};
   };
   // Fixed points enter and leave the mesh whole, and few of them show another transmission error.
   const auto [needs, coarse] = judged(QuadratureRule::Gauss2, 2);
@@ -185,4 +185,32 @@ TEST_CASE("Intervals along the contact lines are too few where twice as many cha
   CHECK(needs);
   // Graded intervals end where contact lines end: from 2 to 4 of them it changes by less than 1 %, and with order one by a sixteenth of that from 32 on.
   CHECK_FALSE(judged(QuadratureRule::Graded, 32).first);
+}
+
+TEST_CASE("A look at twice the intervals says how a design fares with four times as many", "[optimize][design]") {
+  DesignTask task = helical();
+  task.objective = {term(Output::TePeakToPeak)};
+  task.constraints = {{term(Output::PeakContactStress), 600.0}};
+  const auto report_at = [&](int intervals) {
+    DesignTask of = task;
+    of.resolution.quadrature = {QuadratureRule::Graded, intervals};
+    DesignProblem problem(of);
+    DesignReport report = report_design(problem, problem.analyse_given());
+    FinerLook look = look_finer(problem, report, false);
+    return std::pair{std::move(report), std::move(look)};
+  };
+  // The limit is the stress itself: the load cases that come near to it are judged.
+  task.constraints.front().maximum = report_at(32).first.constraint_values.front();
+  for (const int intervals : {2, 4, 8}) {
+    CAPTURE(intervals);
+    const auto [report, look] = report_at(intervals);
+    const DesignReport finer = report_at(4 * intervals).first;
+    const double excess = task.constraints.front().excess(report.constraint_values.front());
+    const double true_excess = task.constraints.front().excess(finer.constraint_values.front());
+    REQUIRE(look.excess_changes.size() == 1);
+    // Order one at least: what is added reaches as far as what four times the intervals add, or farther, to a tenth of what may change.
+    constexpr double slack = 0.1 * change_by_intervals;
+    CHECK(excess + std::max(0.0, look.excess_changes.front()) >= true_excess - slack);
+    if (!look.needs_more) CHECK(std::abs(finer.objective / report.objective - 1.0) <= change_by_intervals + slack);
+  }
 }

@@ -19,3 +19,4 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/scatter_search_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/linking_constraints_test.cpp)
 list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/between_positions_test.cpp)
+list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/spare_limits_test.cpp)

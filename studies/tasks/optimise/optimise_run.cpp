@@ -11,6 +11,7 @@
 #include "optimize/assessment/usual_signs.hpp"
 #include "optimize/design/between_positions.hpp"
 #include "optimize/design/more_intervals.hpp"
+#include "optimize/design/spare_limits.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/life_error.hpp"
 #include "studies/analysis/requirements.hpp"
@@ -43,9 +44,9 @@ class OptimiseRun {
     TwoLevelDesign found = optimise_by_two_levels(problem, exact);
     take_more_positions(problem, exact, found);
     take_better_usual_design(problem, exact, found);
-    take_more_intervals(problem, exact, found);
+    const std::vector<double> by_intervals = take_more_intervals(problem, exact, found);
     choose_what_to_grind(problem, choice, found);
-    keep_constraints_between_positions(problem, choice, found);
+    keep_constraints_where_finer(problem, choice, by_intervals, found);
     if (seeks_extremes(study))
       search_between_positions(
           problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, found);
@@ -207,7 +208,7 @@ class OptimiseRun {
     for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && cycle.automatic_positions; ++turn) {
       const Stopwatch clock;
       const double seconds = found.design.seconds;
-      const DesignReport& best = found.design.exact ? *found.design.exact : found.design.after;
+      const DesignReport& best = exact_of(found);
       const bool infeasible = found.design.status == SolverStatus::Infeasible;  // then it is the excess that was searched for
       if (!rises_between_positions(best, shown_between_positions(problem, best), infeasible)) return;
       const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
@@ -218,22 +219,33 @@ class OptimiseRun {
     }
   }
 
+  /// The best design met, before choices and steps.
+  static const DesignReport& exact_of(const TwoLevelDesign& found) { return found.design.exact ? *found.design.exact : found.design.after; }
+
   /// A search with few points along the contact lines may see a transmission error, or an order of the scenes, that more points do not. It goes on with twice
   /// the intervals then, up to those of an analysis.
-  void take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
-    const Fidelity& fidelity = results_.study.fidelity;
-    while (fidelity.automatic_intervals && 2 * fidelity.quadrature.intervals <= AutomaticResolution{}.most_intervals) {
+  /// @returns by how much still more intervals change the constraints, as FinerLook has it; empty where that is not known
+  std::vector<double> take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+    while (may_look_finer()) {
       const Stopwatch clock;
       const double seconds = found.design.seconds;
-      const DesignReport& best = found.design.exact ? *found.design.exact : found.design.after;
+      const DesignReport& best = exact_of(found);
       const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-      if (!usable || !needs_more_intervals(problem, best, found.design.status == SolverStatus::Infeasible)) return;
+      if (!usable) return {};
+      const FinerLook look = look_finer(problem, best, found.design.status == SolverStatus::Infeasible);
+      if (!look.needs_more) return look.excess_changes;
       const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
-      run_.set_intervals(2 * fidelity.quadrature.intervals);
+      run_.set_intervals(2 * results_.study.fidelity.quadrature.intervals);
       go_on_at_resolution(problem, options, x, found);
       found.fine.seconds += clock.seconds();
       found.design.seconds = seconds + clock.seconds();
     }
+    return {};
+  }
+
+  bool may_look_finer() const {
+    const Fidelity& fidelity = results_.study.fidelity;
+    return fidelity.automatic_intervals && 2 * fidelity.quadrature.intervals <= AutomaticResolution{}.most_intervals;
   }
 
   /// Continues from a design, or from optima beside it, at a resolution that has changed.
@@ -267,52 +279,56 @@ class OptimiseRun {
   /// Relative gain of the objective below which two designs are as good.
   static constexpr double worth_going_on = 1e-3;
 
-  /// Extremes between the positions may exceed a constraint that is kept at the positions. It is then asked for at the positions with as much
+  /// Constraints that are kept at the positions may be exceeded between them, or with more intervals along the contact lines. They are then asked for at the positions with as much
   /// to spare, and the search goes on from there; `problem` has these limits afterwards. A limit that would fall to 0 stays as it is. Of
-  /// all designs met, the one is kept that exceeds the constraints least as it is shown. Nothing to do where no design keeps the constraints at all.
-  void keep_constraints_between_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  /// all designs met, the one is kept that exceeds the constraints least as it is seen more finely. Nothing to do where no design keeps the constraints at all.
+  /// @param by_intervals  of the design found, see take_more_intervals()
+  void keep_constraints_where_finer(DesignProblem& problem, const DesignOptions& options, std::vector<double> by_intervals, TwoLevelDesign& found) {
     constexpr int most_turns = 3;
     struct Turn {
       TwoLevelDesign found;
       DesignTask task;
       double excess;
     };
-    std::optional<Turn> best;
+    const std::vector<OutputConstraint>& asked = results_.design_task->constraints;
     const auto infeasible = [&] { return found.design.status == SolverStatus::Infeasible; };
-    for (int turn = 0; turn <= most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty() && !infeasible(); ++turn) {
+    if (!seeks_extremes(results_.study) || asked.empty() || infeasible()) return;
+    std::optional<Turn> best;
+    double last = INFINITY;
+    for (int turn = 0; turn <= most_turns && !infeasible(); ++turn) {
       const Stopwatch clock;
       const double seconds = found.design.seconds;
-      const DesignReport shown = shown_between_positions(problem, found.design.after);
-      const double excess = std::max(DesignLog::tolerance, excess_of(shown));
-      if (!best || excess < best->excess) best = Turn{found, problem.task(), excess};
+      if (turn > 0 && !by_intervals.empty()) by_intervals = look_finer(problem, found.design.after, false).excess_changes;
+      const std::vector<double> excesses = finer_excesses(shown_between_positions(problem, found.design.after), by_intervals);
+      last = std::max(DesignLog::tolerance, std::ranges::max(excesses));
+      if (!best || last < best->excess) best = Turn{found, problem.task(), last};
       DesignTask tighter = problem.task();
-      bool violated = false;
-      for (std::size_t c = 0; c < tighter.constraints.size(); ++c) {
-        const double at_positions = found.design.after.constraint_values[c], value = shown.constraint_values[c];
-        if (!(results_.design_task->constraints[c].excess(value) > DesignLog::tolerance) || !(value > at_positions)) continue;
-        const double limit = results_.design_task->constraints[c].limit() - (1.0 + spare) * (value - at_positions);
-        if (!(limit > 0.0)) continue;
-        violated = violated || limit < tighter.constraints[c].maximum;
-        tighter.constraints[c].maximum = std::min(tighter.constraints[c].maximum, limit);
-      }
-      if (!violated || turn == most_turns) break;
-      const Eigen::VectorXd x = problem.scaled_design((found.design.exact ? *found.design.exact : found.design.after).variables);
+      if (!spare_limits(tighter.constraints, asked, found.design.after.constraint_values, excesses) || turn == most_turns) break;
+      const Eigen::VectorXd x = problem.scaled_design(exact_of(found).variables);
       problem = DesignProblem(tighter);
       problem.set_start(x.cwiseMax(0.0).cwiseMin(1.0));
       go_on(problem, options, found);
       found.fine.seconds += clock.seconds();
       found.design.seconds = seconds + clock.seconds();
     }
-    if (!best || (!infeasible() && best->excess >= std::max(DesignLog::tolerance, excess_of(shown_between_positions(problem, found.design.after)))))
-      return;
+    if (!infeasible() && last <= best->excess) return;
     const double seconds = found.design.seconds, fine_seconds = found.fine.seconds;
     problem = DesignProblem(best->task);
     found = std::move(best->found);
     found.design.seconds = seconds;
     found.fine.seconds = fine_seconds;
   }
-  /// Of what is asked for to spare, so that one more turn is seldom needed.
-  static constexpr double spare = 0.1;
+
+  /// Per constraint the excess of a design with what more intervals would add to it; what they would take from it is left out.
+  /// @param shown         with what lies between the positions
+  /// @param by_intervals  FinerLook::excess_changes
+  std::vector<double> finer_excesses(const DesignReport& shown, const std::vector<double>& by_intervals) const {
+    const std::vector<OutputConstraint>& asked = results_.design_task->constraints;
+    std::vector<double> excesses;
+    for (std::size_t c = 0; c < asked.size(); ++c)
+      excesses.push_back(asked[c].excess(shown.constraint_values[c]) + (by_intervals.empty() ? 0.0 : std::max(0.0, by_intervals[c])));
+    return excesses;
+  }
 
   /// A scene with the modifications of a design.
   DesignScene scene_of(const DesignAnalysis& analysis, int s) const {
