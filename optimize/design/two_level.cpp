@@ -52,14 +52,21 @@ void join(const DesignResult& coarse, DesignResult& fine) {
   fine.history = std::move(history);
 }
 
-/// The budgets that a design leaves.
+/// Where the run from the given design ended, as the last of the starts: what finishes best is not known from the coarse level, and more starts shall not end
+/// above that one alone.
+void add_first_run(const DesignResult& coarse, std::vector<Eigen::VectorXd>& starts) {
+  if (coarse.runs.size() < 2 || coarse.runs.front().x.size() == 0) return;
+  const Eigen::VectorXd& first = coarse.runs.front().x;
+  if (std::ranges::none_of(starts, [&](const Eigen::VectorXd& x) { return x == first; })) starts.push_back(first);
+}
+
+}  // namespace
+
 SolverOptions left_of(SolverOptions options, const DesignResult& found) {
   options.max_evaluations = std::max(1, options.max_evaluations - found.evaluations);
   options.max_seconds = std::max(1e-3, options.max_seconds - found.seconds);
   return options;
 }
-
-}  // namespace
 
 std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignResult& found, const Eigen::VectorXd& x_found) {
   std::vector<Eigen::VectorXd> candidates{x_found};
@@ -141,7 +148,8 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
 
   const Stopwatch fine_clock;
   result.design = coarse;
-  const std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0));
+  std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0));
+  add_first_run(coarse, starts);
   result.fine.cycles = problem.cycles() - cycles_before;
   go_on_from_best(problem, options, starts, result);
   result.fine.seconds = fine_clock.seconds();

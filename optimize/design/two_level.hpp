@@ -38,6 +38,9 @@ bool can_be_coarser(const DesignTask& task);
 /// @throws InvalidInput as optimise_design()
 TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOptions& options);
 
+/// The budgets that a design found has left of those of its search.
+SolverOptions left_of(SolverOptions options, const DesignResult& found);
+
 /// Designs from which a search at another resolution goes on, chosen from a design and the optima found beside it. First comes the design that exceeds the constraints
 /// least; among equals, the one with the lowest objective. The design with the lowest objective of all follows where it is another: a search from there may
 /// mend what it exceeds.
