@@ -73,7 +73,7 @@ std::vector<ModificationConstraint> usual_sign_limits(const DesignTask& task) {
   return limits;
 }
 
-std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const DesignReport& best) {
+std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const DesignReport& best, double max_seconds) {
   const std::vector<ModificationConstraint> limits = usual_sign_limits(problem.task());
   UsualSigns found;
   for (const ModificationConstraint& limit : limits) {
@@ -90,10 +90,12 @@ std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const D
   limited.set_start(limited.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0));
   DesignOptions options;
   options.to_grind = false;
+  options.solver.max_seconds = max_seconds;
   DesignResult result = optimise_by_two_levels(limited, options).design;
   const std::vector<LoadedCycle>& cycles = result.after.analysis.cycles;
   const bool usable = std::ranges::all_of(cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-  if (!usable || limited.violation(result.after.analysis) > DesignLog::tolerance) return found;
+  found.is_out_of_time = result.status == SolverStatus::TimeLimit;
+  if (found.is_out_of_time || !usable || limited.violation(result.after.analysis) > DesignLog::tolerance) return found;
   found.price = relative_increase(best.later_objectives.empty() ? best.objective : best.later_objectives.back(), result.after.objective);
   found.design = std::move(result.after);
   return found;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,12 +24,15 @@ struct UsualSigns {
   static constexpr double noticed = 5e-4;
   std::vector<std::string> unusual;    ///< what the optimum has that is seldom ground: "a negative pinion lead crowning"
   std::optional<DesignReport> design;  ///< optimum of the same task under the limits as well; none where it was not found
+  bool is_out_of_time{false};          ///< the search for it did not end within its time
   double price{not_given};             ///< relative_increase() of the objective from the optimum, of a list of the last one [-]
 };
 
 /// @param problem  of a single objective: last_stage()
 /// @param best     the optimum before rounding
+/// @param max_seconds  after which the search for that design ends without one, because a longer search may find a better
 /// @return  none where the optimum keeps the limits
-std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const DesignReport& best);
+std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const DesignReport& best,
+                                           double max_seconds = std::numeric_limits<double>::infinity());
 
 }  // namespace flankwright

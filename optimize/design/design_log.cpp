@@ -12,7 +12,8 @@ void DesignLog::record(const DesignProblem& problem, const Eigen::VectorXd& x, c
     return fa ? b.objective < a.objective : b.constraint_violation < a.constraint_violation;
   };
   if (best_ < 0 || worse(*best(), entry)) best_ = static_cast<int>(entries_.size()) - 1;
-  if (progress_) progress_(static_cast<int>(entries_.size()), best()->objective);
+  const bool is_kept = best()->constraint_violation <= tolerance;
+  if (progress_) progress_(static_cast<int>(entries_.size()), is_kept ? best()->objective : not_given);
 }
 
 }  // namespace flankwright

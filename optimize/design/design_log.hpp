@@ -10,7 +10,7 @@ namespace flankwright {
 /// Best design met so far and every analysis on the way, judged by the true outputs rather than by a programme's candidates.
 class DesignLog {
  public:
-  /// Called after each new analysis with (analyses so far, best feasible objective so far).
+  /// Called after each new analysis with (analyses so far, best feasible objective so far: NaN where none).
   using Progress = std::function<void(int, double)>;
   explicit DesignLog(Progress progress) : progress_(std::move(progress)) {}
 

@@ -104,9 +104,7 @@ class DesignRun {
     by_excess.set_start(x_);
     SolverOptions options = search_options();
     if (options_.solver.progress) {
-      options.progress = [&, objective = problem_.objective(problem_.analyse(x_, false)), before = result_.evaluations](int analyses, double) {
-        options_.solver.progress(before + analyses, objective);
-      };
+      options.progress = [&, before = result_.evaluations](int analyses, double) { options_.solver.progress(before + analyses, not_given); };
     }
     const LocalRun nearest = run_local(by_excess, options);
     count(nearest);

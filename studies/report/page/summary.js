@@ -85,6 +85,13 @@ function unloaded_headline(results) {
   return `Unloaded TE ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `: the worst of ${count_words(count)} scenes` : ""}`;
 }
 
+/** What is minimised, with the weights of several outputs. */
+function objective_words(optimise) {
+  const terms = list(optimise.objective_terms).map(record);
+  if (terms.length < 2) return words(optimise.objective_name);
+  return terms.map(({ output, weight, unit }) => `${fmt(weight)} · ${words(output)} [${pretty_unit(unit)}]`).join(" + ");
+}
+
 /** Every constraint of a design: {name, value, least, max, min, unit, met}, its largest value and its least. */
 function constraint_rows(optimise, design = "after") {
   return Object.entries(record(record(optimise[design]).constraints)).map(([name, raw]) => {
@@ -119,6 +126,13 @@ function draw_verdict(results, cases) {
   if (optimise.status && !said_below && !/converged|success|optimal/i.test(optimise.status)) {
     verdict.append(el("p", { class: "banner" }, `The solver ended with “${words(optimise.status)}”`
       + `${optimise.message ? `: ${optimise.message}` : ""}.${optimise.status === "infeasible" ? "" : " The best design found is shown."}`));
+  }
+  const { residual, complementarity } = record(optimise.optimality);
+  const doubt = Math.max(residual ?? 0, complementarity ?? 0);
+  // 1e-4: an optimum's own remainder, Optimality::holds.
+  if (optimise.status !== "infeasible" && doubt > 1e-4) {
+    verdict.append(el("p", { class: "banner", id: "doubt" }, `The design shown is no proven optimum: the conditions of one hold to ${fmt(100 * doubt, 2)} % of the objective at the start `
+      + "over the range of a variable, where an optimum has at most 0.01 %."));
   }
   if (relaxation.length > 0) {
     verdict.append(el("div", { class: "banner", id: "relaxation" }, el("ul", { class: "statements" }, ...relaxation.map((sentence) => el("li", {}, pretty_unit(sentence))))));

@@ -9,7 +9,7 @@ function optimise_first(first, results, selection) {
   } else {
     panel(first, { title: "Topography to grind", span: 7, href: "modifications" }, (plot) => small_topographies(plot, results, 220));
   }
-  panel(first, { title: `How much better: ${words(optimise.objective_name)}`, span: 5, href: "scenes" }, (plot) => gain_panel(plot, results));
+  panel(first, { title: `How much better: ${objective_words(optimise)}`, span: 5, href: "scenes" }, (plot) => gain_panel(plot, results));
   panel(first, { title: "How sure", span: 4, href: "validation" }, (plot) => assurance_panel(plot, results));
   panel(first, { title: "What it costs", span: 3, href: "effects" }, (plot) => cost_panel(plot, results));
   if (front) panel(first, { title: "Topography to grind", span: 12, href: "modifications" }, (plot) => small_topographies(plot, results, 236));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/two_level.hpp"
 #include "optimize/design/draws.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
@@ -144,7 +145,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
     assessment.judged = last.task();
     assessment.judged->constraints = asked.constraints;
     if (progress) progress("looking for the usual signs", 0, 1, "");
-    assessment.usual = find_usual_signs(last, best);
+    assessment.usual = find_usual_signs(last, best, left_of(study.optimise.solver, design).max_seconds);
   }
   assessment.seconds = clock.seconds();
   return assessment;
@@ -183,7 +184,9 @@ std::string assessed_design_in_words(AssessedDesign design) {
 
 std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task) {
   std::string words = fmt::format("The optimum has what is seldom ground: {}. ", fmt::join(usual.unusual, ", "));
-  if (!usual.design) return words + "No design without it was found that keeps the constraints.";
+  if (!usual.design)
+    return words + (usual.is_out_of_time ? "The search for a design without it did not end within the time limit."
+                                         : "No design without it was found that keeps the constraints.");
   std::vector<std::string> amounts;
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];

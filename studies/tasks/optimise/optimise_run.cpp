@@ -35,7 +35,9 @@ class OptimiseRun {
     results_.design_task = design_task();
     SolverOptions options = study.optimise.solver;
     const std::string unit = study.optimise.objective.size() == 1 ? study.optimise.objective.front().unit() : "";
-    options.progress = [&](int analyses, double best) { run_.report("optimising", analyses, 0, fmt::format("best so far {:.5g} {}", best, unit)); };
+    options.progress = [&](int analyses, double best) {
+      run_.report("optimising", analyses, 0, std::isnan(best) ? "none within the limits so far" : fmt::format("best so far {:.5g} {}", best, unit));
+    };
     DesignProblem problem(*results_.design_task);
     const DesignOptions choice{options, study.optimise.starts};
     announce_violations_of_start(problem);
@@ -265,7 +267,7 @@ class OptimiseRun {
       return;
     const Stopwatch clock;
     run_.report("looking for the usual signs", 0, 1, "");
-    const std::optional<UsualSigns> usual = find_usual_signs(problem, best);
+    const std::optional<UsualSigns> usual = find_usual_signs(problem, best, left_of(options.solver, found.design).max_seconds);
     if (!usual || !usual->design || !(usual->price < -worth_going_on)) return;
     const double seconds = found.design.seconds;
     TwoLevelDesign further = found;

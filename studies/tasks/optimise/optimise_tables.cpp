@@ -1,6 +1,7 @@
 #include "studies/tasks/optimise/optimise_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,24 @@ std::string error_row(std::size_t width, double before, double after) {
   return fmt::format("{:<{}}  {:>12}  {:>12}\n", "  known to", width, known_to(before), known_to(after));
 }
 
+/// That a design is shown for which the first-order conditions of an optimum do not hold; empty where they do, or where none was looked for.
+std::string doubt_in_words(const DesignResult& design) {
+  const double largest = std::max(design.optimality.residual, design.optimality.complementarity);
+  if (design.status == SolverStatus::Infeasible || !(largest > Optimality::holds)) return {};
+  return fmt::format(
+      "The design shown is no proven optimum: the conditions of one hold to {:.2g} % of the objective at the start over the range of a variable, "
+      "where an optimum has at most {:.2g} %. A better one may lie near: other starts, or more analyses, may find it.\n",
+      100.0 * largest, 100.0 * Optimality::holds);
+}
+
+/// What is minimised, with the weights of several outputs.
+std::string objective_in_words(const Objective& objective) {
+  if (objective.terms.size() == 1) return plain_name(objective.name());
+  std::vector<std::string> parts;
+  for (const ObjectiveTerm& term : objective.terms) parts.push_back(fmt::format("{:.4g} * {} [{}]", term.weight, plain_name(term.name), term.unit()));
+  return fmt::format("{}", fmt::join(parts, " + "));
+}
+
 }  // namespace
 
 std::string optimise_summary(const StudyResults& results) {
@@ -121,7 +140,7 @@ std::string optimise_summary(const StudyResults& results) {
     out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", plain_name(v.path), width, design.before.variables[i] * v.outside_factor(),
                        design.after.variables[i] * v.outside_factor(), describe(v.parameter).kind == ParameterKind::Fraction ? "of 1" : v.unit());
   }
-  out += fmt::format("\n{} [{}]\n", plain_name(task.objective_name()), task.objective_unit());
+  out += fmt::format("\n{} [{}]\n", objective_in_words(task.combined_objective()), task.objective_unit());
   for (const std::size_t s : listed.indices()) {
     const double before = design.before.scene_measures[s], after = design.after.scene_measures[s];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", label(task.scenes[s]), width, before, after, change(before, after));
@@ -131,7 +150,7 @@ std::string optimise_summary(const StudyResults& results) {
   out += error_row(width, results.before_errors.objective, results.after_errors.objective);
   for (std::size_t k = 0; k < task.later_objectives.size(); ++k) {
     const double before = design.before.later_objectives[k], after = design.after.later_objectives[k];
-    out += fmt::format("then {} [{}]\n", plain_name(task.later_objectives[k].name()), task.later_objectives[k].unit());
+    out += fmt::format("then {} [{}]\n", objective_in_words(task.later_objectives[k]), task.later_objectives[k].unit());
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, before, after, change(before, after));
     const bool has_error = k < results.before_errors.later_objectives.size() && k < results.after_errors.later_objectives.size();
     if (has_error) out += error_row(width, results.before_errors.later_objectives[k], results.after_errors.later_objectives[k]);
@@ -151,6 +170,7 @@ std::string optimise_summary(const StudyResults& results) {
   }
   out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
+  out += doubt_in_words(design);
   for (const std::string& sentence : grinding_choices_in_words(design, task)) out += sentence + "\n";
   if (design.exact) out += loss_in_words(design, task) + excess_of_exact_in_words(design, task);
   if (results.search_work) {
