@@ -275,6 +275,28 @@ LoadedCycle analyse_halves(const MeshModel& model, const FlankCondition& conditi
   return cycle;
 }
 
+/// A contact on a tip edge may be so short that it peaks between the positions, where it changes by more than at them. Its errors by points reach as far as twice what the
+/// peaks among positions and extremes change by, the sum of all further doublings with order one, or as `stated` where that is less.
+/// @param finer, at_extremes  with twice the intervals: at the positions, and at the extremes of `resolved`
+void widen_edge_errors(const CycleErrors& stated, const CycleSummary& summary, const LoadedCycle& finer, const LoadedCycle& at_extremes,
+                       ResolvedCycle& resolved) {
+  double stress = 0.0, share = 0.0;
+  for (const LoadedCycle* cycle : {&finer, &at_extremes}) {
+    for (const LoadedPosition& position : cycle->positions) {
+      if (position.edge_stress.size() > 0) stress = std::max(stress, position.edge_stress.maxCoeff());
+      share = std::fmax(share, position.tip_edge_share);
+    }
+  }
+  const auto widened = [&](auto error, double seen, double shown) {
+    CycleErrors& points = resolved.error_parts.points;
+    points.*error = std::fmin(stated.*error, std::fmax(points.*error, 2.0 * std::abs(seen - shown)));
+  };
+  if (!finer.usable() || !at_extremes.usable()) return;
+  widened(&CycleErrors::edge_stress, stress, summary.edge_stress);
+  widened(&CycleErrors::tip_edge_share, share, summary.tip_edge_share);
+  resolved.errors = resolved.error_parts.sum();
+}
+
 }  // namespace
 
 void StudyRun::hold_against_finer(std::size_t first) {
@@ -282,8 +304,12 @@ void StudyRun::hold_against_finer(std::size_t first) {
   std::map<MeshPlacement, std::vector<LoadedResult*>> wide;
   for (std::size_t i = first; i < results_.loaded.size(); ++i) {
     LoadedResult& loaded = results_.loaded[i];
-    const double error = headline_error(loaded.resolved.error_parts.points, loaded.summary, loaded.cycle);
-    if (std::isgreater(error, AutomaticResolution{}.accuracy)) wide[placement_of(loaded.condition, loaded.torque)].push_back(&loaded);
+    const CycleErrors& points = loaded.resolved.error_parts.points;
+    const double error = headline_error(points, loaded.summary, loaded.cycle);
+    // Half the intervals may meet hardly anything of a narrow contact on a tip edge. It counts beside the peak that it may come to exceed.
+    const double on_edges = points.edge_stress / loaded.summary.peak_contact_stress;
+    if (std::isgreater(error, AutomaticResolution{}.accuracy) || std::isgreater(on_edges, AutomaticResolution{}.accuracy))
+      wide[placement_of(loaded.condition, loaded.torque)].push_back(&loaded);
   }
   Quadrature quadrature = results_.study.fidelity.quadrature;
   quadrature.intervals *= 2;
@@ -292,7 +318,14 @@ void StudyRun::hold_against_finer(std::size_t first) {
     const MeshModel finer = mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {});
     for (LoadedResult* loaded : placed[i].second) {
       const LoadedCycle cycle = analyse_halves(finer, loaded->condition, loaded->torque);
+      const CycleErrors stated = loaded->resolved.error_parts.points;
       flankwright::hold_against_finer(results_.models[loaded->model], loaded->cycle, finer, cycle, loaded->resolved);
+      const std::vector<double>& phases = loaded->resolved.extremes.phases;
+      if (!phases.empty() && stated.edge_stress > 0.0) {
+        const MeshModel between = mesh(placed[i].first, {quadrature, phases}, nullptr, results_.shafts.get(), {});
+        const LoadedCycle at_extremes = analyse_cycle(between, loaded->condition, loaded->torque, {}, {}, RootStresses::Later);
+        widen_edge_errors(stated, loaded->summary, cycle, at_extremes, loaded->resolved);
+      }
       loaded->compared_intervals = quadrature.intervals;
     }
   });
