@@ -75,10 +75,11 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
   of.bulk_temperature = condition.bulk_temperature;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const Eigen::VectorXd& load = loaded.cycle.positions[i].load.line_load;
-    Eigen::VectorXd& flash = of.flash.emplace_back(load.size());
+    Eigen::VectorXd &flash = of.flash.emplace_back(load.size()), &film = of.film_at_points.emplace_back(load.size());
     for (Eigen::Index j = 0; j < load.size(); ++j) {
       const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
-      of.film = std::fmin(of.film, local_film(model.pair, model.contact_modulus, point, load[j], *oil->lubricant, condition).ratio);
+      film[j] = local_film(model.pair, model.contact_modulus, point, load[j], *oil->lubricant, condition).ratio;
+      of.film = std::fmin(of.film, film[j]);
       const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, point, load[j], condition);
       flash[j] = local.flash;
       if (std::islessequal(local.flash, of.flash_temperature)) continue;

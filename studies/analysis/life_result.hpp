@@ -37,6 +37,7 @@ struct CaseLife {
   double scuffing_safety{not_given};                              ///< S_B [-]
   CaseLifeErrors errors{};                                        ///< of these
   std::vector<Eigen::VectorXd> flash;                             ///< theta_fl at the points of each mesh position [K]; empty: not known
+  std::vector<Eigen::VectorXd> film_at_points;                    ///< lambda_GF likewise [-]; NaN where a point has no load
   PerGear<double> contact_safety{not_given,
                                  not_given};  ///< stress that is borne for the case's load cycles, or for ever, over the peak contact stress [-]
   PerGear<double> root_safety{not_given, not_given};  ///< likewise of the largest root stress [-]

@@ -55,12 +55,13 @@ Json drawn_list(const Json& list, const Draw& draw_entry) {
   return copy;
 }
 
-/// List of points -> object of columns; those of tip edges only where a point of the list has them, the radius of the wheel only where life is drawn on it.
+/// List of points -> object of columns; those of tip edges and of the film only where a point of the list has them, the radius of the wheel only where life is drawn on it.
 Json columns_of(const Json& points, bool has_life) {
   if (!points.is_array()) return drawn(points);
   const auto has_any = [&](const char* key) { return std::ranges::any_of(points, [&](const Json& point) { return point.contains(key); }); };
   std::vector<const char*> keys{"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa", "gap_um"};
   if (has_life) keys.push_back("wheel_radius_mm");
+  if (has_any("specific_film_thickness")) keys.insert(keys.end(), {"specific_film_thickness", "flash_temperature_K"});
   if (has_any("tip_edge")) keys.insert(keys.end(), {"edge_stress_MPa", "tip_edge"});
   Json columns = Json::object();
   for (const char* key : keys) {

@@ -130,10 +130,11 @@ double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& positi
   return highest < 0 ? not_given : position.root_stress[highest];
 }
 
-/// @param flash  temperatures at the points; null: not known
+/// @param life  of the load case, for film and temperatures at the points; null: not known
+/// @param i     index of the position
 /// @param with_points  whether the contact points are listed, see cases_with_points()
 Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, const FlankCondition& condition,
-                   const Eigen::VectorXd* flash, bool with_points) {
+                   const CaseLife* life, std::size_t i, bool with_points) {
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const LoadDistribution& load = position.load;
   Json json{{"phase", position.phase},
@@ -146,11 +147,14 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
             {"message", load.message}};
   std::map<int, Json> teeth;
   if (load.usable()) {
-    for (std::size_t i = 0; i < at.points.size(); ++i) {
-      Json& points = teeth.try_emplace(at.points[i].tooth, Json::array()).first->second;
+    for (std::size_t p = 0; p < at.points.size(); ++p) {
+      Json& points = teeth.try_emplace(at.points[p].tooth, Json::array()).first->second;
+      const auto point = static_cast<Eigen::Index>(p);
       if (!with_points) continue;
-      points.push_back(point_json(at, position, static_cast<Eigen::Index>(i)));
-      if (flash != nullptr) points.back()["flash_temperature_K"] = (*flash)[static_cast<Eigen::Index>(i)];
+      points.push_back(point_json(at, position, point));
+      if (life == nullptr || life->flash.empty()) continue;
+      points.back()["flash_temperature_K"] = life->flash[i][point];
+      points.back()["specific_film_thickness"] = life->film_at_points[i][point];
     }
   }
   const std::map<int, double> shares = shares_by_tooth(at, position);
@@ -236,8 +240,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results, bool w
   const CaseLife* life = results.life ? results.life->find(static_cast<std::size_t>(&loaded - results.loaded.data())) : nullptr;
   Json cycle = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
-    const Eigen::VectorXd* flash = life == nullptr || life->flash.empty() ? nullptr : &life->flash[i];
-    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition, flash, with_points));
+    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition, life, i, with_points));
   }
   Json json{{"scene", loaded.scene},
             {"torque_Nm", in_Nm(loaded.torque)},

@@ -1,4 +1,4 @@
-// Damage over the spectrum and safety in one load case, at every point of a flank.
+// Damage over the spectrum, and safety, film and temperature in one load case, at every point of a flank.
 
 /** Decades of damage that a map shows. */
 const MAP_DECADES = 4;
@@ -46,30 +46,59 @@ function draw_damage_map(plot, life, selection, gear) {
   });
 }
 
-/** The stress over that which is borne is linear between points as the stress is; the colour bar has its inverse, the safety. */
-function draw_safety_map(plot, life, selection, gear) {
+/** Never loaded where it is 0; of several points at a place the largest. */
+const LOADED_RANK = { is_bare: (value) => value <= 0, outranks: (a, b) => a > b };
+
+/** Maps of a quantity whose inverse is drawn, so that the worst point has the strongest colour; the colour bar has the quantity itself. @param of  (design) => {values: of columns, least} */
+function draw_inverse_map(plot, selection, gear, { of, unit, word }) {
   const designs = designs_of(selection.current).map((design) => {
-    const entry = selection.current.designs[design], of = life_of(life, entry), least = record(of[gear]).contact_safety;
-    const borne = least * of.peak_contact_stress_MPa;
-    const points = contact_points(entry, (_, columns) => list(columns.contact_stress_MPa).map((stress) => (is_number(stress) ? stress / borne : null)), radius_key(gear));
-    return { design, points, title: `${DESIGN_LABEL[design]}, least ${fmt(least, 3)}` };
+    const { values, least } = of(selection.current.designs[design]);
+    return { design, points: contact_points(selection.current.designs[design], (_, columns) => values(columns), radius_key(gear)), title: `${DESIGN_LABEL[design]}, least ${fmt(least, 3)}` };
   });
   const high = maximum(designs[designs.length - 1].points.map((point) => point.value));
   if (!(high > 0)) return;
   const ticks = [];
-  for (const safety of [0.2, 0.3, 0.5, 0.7, 1, 1.2, 1.5, 2, 3, 5, 10, 20]) {
-    const at = 1 / safety;
-    if (at <= high && (ticks.length === 0 || ticks[ticks.length - 1].at - at > 0.08 * high)) ticks.push({ at, text: fmt(safety) });
+  for (const value of [0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 0.7, 1, 1.2, 1.5, 2, 3, 5, 10, 20]) {
+    const at = 1 / value;
+    if (at <= high && (ticks.length === 0 || ticks[ticks.length - 1].at - at > 0.08 * high)) ticks.push({ at, text: fmt(value) });
   }
-  draw_life_maps(plot, designs, { gear, unit: "safety", scale: { low: 0, high, ticks }, rank: { is_bare: (value) => value <= 0, outranks: (a, b) => a > b },
-    words_at: (value) => (value <= 0 ? "never loaded" : `safety ${fmt(1 / value, 3)}`) });
+  draw_life_maps(plot, designs, { gear, unit, scale: { low: 0, high, ticks }, rank: LOADED_RANK,
+    words_at: (value) => (value <= 0 ? "never loaded" : `${word} ${fmt(1 / value, 3)}`) });
+}
+
+/** The stress over that which is borne is linear between points as the stress is; the colour bar has its inverse, the safety. */
+function draw_safety_map(plot, life, selection, gear) {
+  draw_inverse_map(plot, selection, gear, { unit: "safety", word: "safety", of: (entry) => {
+    const of = life_of(life, entry), least = record(of[gear]).contact_safety, borne = least * of.peak_contact_stress_MPa;
+    return { least, values: (columns) => list(columns.contact_stress_MPa).map((stress) => (is_number(stress) ? stress / borne : null)) };
+  } });
+}
+
+function draw_film_map(plot, life, selection, gear) {
+  draw_inverse_map(plot, selection, gear, { unit: "λ_GF", word: "λ_GF", of: (entry) => ({ least: life_of(life, entry).specific_film_thickness,
+    values: (columns) => list(columns.specific_film_thickness).map((film) => (is_number(film) && film > 0 ? 1 / film : 0)) }) });
+}
+
+/** From the bulk temperature, which unloaded points have, to the hottest point of the last design. */
+function draw_temperature_map(plot, life, selection, gear) {
+  const designs = designs_of(selection.current).map((design) => {
+    const entry = selection.current.designs[design], of = life_of(life, entry);
+    const points = contact_points(entry, (_, columns) => list(columns.flash_temperature_K), radius_key(gear));
+    return { design, points, bulk: of.bulk_temperature_degC, title: `${DESIGN_LABEL[design]}, at most ${fmt(of.contact_temperature_degC, 3)} °C` };
+  });
+  const last = designs[designs.length - 1], high = maximum(last.points.map((point) => point.value));
+  if (!(high > 0) || !is_number(last.bulk)) return;
+  const ticks = [0, 0.25, 0.5, 0.75, 1].map((share) => ({ at: share * high, text: fmt(last.bulk + share * high, 3) }));
+  draw_life_maps(plot, designs, { gear, unit: "°C", scale: { low: 0, high, ticks }, rank: LOADED_RANK,
+    words_at: (value) => (value <= 0 ? "never loaded" : `${fmt(last.bulk + value, 3)} °C, of which ${fmt(value, 3)} K flash`) });
 }
 
 /** The flank maps of the gear that a choice takes, that with the greater damage first. */
 function flank_life(grid, controls, life, selection) {
   const has_safety = (gear) => has_number(life, (of) => record(of[gear]).contact_safety);
-  const gears = LIFE_GEARS.filter(has_safety);
-  if (gears.length === 0) return;
+  const rated = LIFE_GEARS.filter(has_safety), has_film = has_number(life, (of) => of.specific_film_thickness);
+  if (rated.length === 0 && !has_film) return;
+  const gears = has_film ? LIFE_GEARS : rated;
   const damage = (gear) => maximum(list(life.cases).map((of) => record(record(of)[gear]).contact_damage));
   let gear = gears.reduce((a, b) => (damage(b) > damage(a) ? b : a));
   const redraws = [];
@@ -89,9 +118,21 @@ function flank_life(grid, controls, life, selection) {
       draw_damage_map(plot, life, selection, gear);
     }));
   }
-  redraws.push(case_figure(grid, selection, { title: "Safety of the flank in the load case", wide: paired,
+  if (rated.length > 0) redraws.push(case_figure(grid, selection, { title: "Safety of the flank in the load case", wide: paired,
     caption: "Stress that is borne for the load cycles of the case, the endurance limit where they are not given, over the contact stress at each point. " + `${end}Grey areas are never loaded.` }, (plot) => {
     said(plot);
-    draw_safety_map(plot, life, selection, gear);
+    if (rated.includes(gear)) draw_safety_map(plot, life, selection, gear);
+    else plot.append(el("p", { class: "empty" }, "The strength of this flank is not given."));
+  }));
+  if (!has_film) return;
+  redraws.push(case_figure(grid, selection, { title: "Film of the flank in the load case", wide: paired,
+    caption: `Specific film thickness λ_GF of ISO/TS 6336-22, method A, at each point. ${end}Grey areas are never loaded.` }, (plot) => {
+    said(plot);
+    draw_film_map(plot, life, selection, gear);
+  }));
+  redraws.push(case_figure(grid, selection, { title: "Contact temperature in the load case", wide: paired,
+    caption: `Bulk and flash temperature at each point. ${end}Grey areas are never loaded.` }, (plot) => {
+    said(plot);
+    draw_temperature_map(plot, life, selection, gear);
   }));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "core/rating/sliding_loss.hpp"
 #include "studies/analysis/run_study.hpp"
@@ -302,15 +303,21 @@ TEST_CASE("Results have the damage of each load case and its sum, by hand", "[st
     CHECK(hottest == Approx(of.at("bulk_temperature_degC").get<double>() + of.at("flash_temperature_K").get<double>()).epsilon(round_off));
     CHECK(of.at("scuffing_safety").get<double>() == Approx((250.0 - 80.0) / (hottest - 80.0)).epsilon(round_off));
   }
-  // The largest flash temperature is that of a point of the cycle.
+  // The largest flash temperature and the thinnest film are those of points of the cycle.
   for (std::size_t k = 0; k < 2; ++k) {
-    double largest = 0.0;
+    double largest = 0.0, thinnest = std::numeric_limits<double>::infinity();
     for (const Json& position : document.at("loaded")[k].at("cycle")) {
       for (const Json& tooth : position.at("teeth")) {
-        for (const Json& point : tooth.at("points")) largest = std::max(largest, point.at("flash_temperature_K").get<double>());
+        for (const Json& point : tooth.at("points")) {
+          largest = std::max(largest, point.at("flash_temperature_K").get<double>());
+          const bool is_loaded = point.at("load_N_per_mm").get<double>() > 0.0;
+          CHECK(is_loaded == point.at("specific_film_thickness").is_number());
+          if (is_loaded) thinnest = std::min(thinnest, point.at("specific_film_thickness").get<double>());
+        }
       }
     }
     CHECK(largest == life.at("cases")[k].at("flash_temperature_K").get<double>());
+    CHECK(thinnest == life.at("cases")[k].at("specific_film_thickness").get<double>());
     CHECK(largest > 0.0);
   }
   double largest = 0.0;
