@@ -2,6 +2,10 @@
 
 namespace flankwright {
 
+ShaftPair shafts_under(const ShaftPair& shafts, const MeshModel& model, double pinion_torque) {
+  return model.placement.other_flanks ? shafts.reversed().at_torque(pinion_torque) : shafts.at_torque(pinion_torque);
+}
+
 PerGear<ShaftMotion> shaft_motions(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle, std::size_t position) {
   PerGear<ShaftMotion> motions;
   const LoadDistribution& load = cycle.positions[position].load;

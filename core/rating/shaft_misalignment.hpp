@@ -6,7 +6,10 @@
 namespace flankwright {
 
 /// Motions of both shafts under the loads of one mesh position; NaN where a gear has no shaft, or there is no load distribution.
-/// @param shafts  ShaftPair::at_torque() of the load case
+/// The shafts as they are in a load case: on the flanks that touch, linearised at its torque.
+ShaftPair shafts_under(const ShaftPair& shafts, const MeshModel& model, double pinion_torque);
+
+/// @param shafts  shafts_under() of the load case
 PerGear<ShaftMotion> shaft_motions(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle, std::size_t position);
 
 /// What these motions together open the mesh by at +z, over the common face, as Misalignment::mesh_misalignment does [mm]; a gear without a shaft

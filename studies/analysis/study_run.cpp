@@ -40,6 +40,7 @@ StudyResults StudyRun::finish() {
   const Stopwatch clock;
   results_.study.task->run(*this);
   find_edge_contact();
+  note_unit();
   if (!results_.life) rate_life();
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
@@ -241,7 +242,7 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const DesignScene& scene = scenes[i];
     const MeshModel& model = results_.models[models[i]];
-    const double by_shafts = results_.shafts ? shaft_misalignment(results_.shafts->at_torque(scene.torque), model, cycles[i]) : 0.0;
+    const double by_shafts = results_.shafts ? shaft_misalignment(shafts_under(*results_.shafts, model, scene.torque), model, cycles[i]) : 0.0;
     IsoLoadFactors iso;  // not known where the shafts' loads are not
     if (!std::isnan(by_shafts)) {
       iso = iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition, by_shafts), scene.torque, model.face_width);

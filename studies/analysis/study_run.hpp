@@ -93,6 +93,7 @@ class StudyRun {
   void analyse_loaded(const std::vector<DesignScene>& scenes);
   void forget_loaded();
   void find_edge_contact();
+  void note_unit();
   void size_effects();
 
   const ProgressReport& progress_;

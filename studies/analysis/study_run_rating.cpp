@@ -8,6 +8,7 @@
 #include "studies/analysis/governing_cases.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
 #include "studies/analysis/study_run.hpp"
+#include "studies/analysis/unit_note.hpp"
 #include "studies/study_file/study_life.hpp"
 
 /// What a StudyRun adds to load cases that are solved: load factors, life, the torques at which edges touch, sizes of effects.
@@ -91,6 +92,10 @@ void StudyRun::find_edge_contact() {
   if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
   results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});
   results_.notes.push_back(edge_contact_note(results_.loaded));
+}
+
+void StudyRun::note_unit() {
+  if (const std::string note = unit_note(results_); !note.empty()) results_.notes.push_back(note);
 }
 
 void StudyRun::size_effects() {

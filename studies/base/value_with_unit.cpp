@@ -80,6 +80,7 @@ constexpr std::array known_units{
     Unit{"N/um", Dimension::LineLoad, 1.0 / units::um},
     Unit{"kN/mm", Dimension::LineLoad, 1e3},
     Unit{"lbf/in", Dimension::LineLoad, pound_force / units::inch},
+    Unit{"N/(mmum)", Dimension::Stress, 1.0 / units::um},
     Unit{"1/in", Dimension::InverseLength, 1.0 / units::inch},
     Unit{"/in", Dimension::InverseLength, 1.0 / units::inch},
     Unit{"1/mm", Dimension::InverseLength, 1.0},
@@ -133,6 +134,8 @@ constexpr Convention convention(Quantity quantity) {
       return {Dimension::LineLoad, "N/mm", "N/mm", "N/mm, kN/m, lbf/in"};
     case Quantity::Stiffness:
       return {Dimension::LineLoad, "N/um", "N/um", "N/um, N/mm, kN/mm, lbf/in"};
+    case Quantity::MeshStiffness:
+      return {Dimension::Stress, "N/(mmum)", "N/(mm um)", "N/(mm um), N/mm2"};
     case Quantity::DiametralPitch:
       return {Dimension::InverseLength, "1/in", "1/in", "1/in, 1/mm"};
     case Quantity::Curvature:

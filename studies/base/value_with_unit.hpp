@@ -18,6 +18,7 @@ enum class Quantity {
   Stress,              ///< bare: MPa; inside MPa
   LineLoad,            ///< bare: N/mm; inside N/mm
   Stiffness,           ///< of a bearing; bare: N/um; inside N/mm
+  MeshStiffness,       ///< of teeth per face width, c_gamma; bare: N/(mm um); inside N/mm^2
   DiametralPitch,      ///< bare: 1/in; inside 1/mm
   Curvature,           ///< bare: 1/mm; inside 1/mm
   ParabolicTe,         ///< a in delta_phi2 = -a phi1^2; bare: arcsec/deg^2; inside 1/rad

@@ -48,11 +48,13 @@ ComplianceTask compliance_task(const Study& study, const GearPair& pair) {
                       .body = {study.body.pinion, study.body.wheel},
                       .shaft = {study.shaft.pinion, study.shaft.wheel},
                       .root_stress = wants_root_stress(study),
-                      .rigid_bodies = wants_rigid_bodies(study)};
+                      .rigid_bodies = wants_rigid_bodies(study),
+                      .other_flanks = std::ranges::any_of(study.scenes, [&](const Scene& scene) { return loads_other_flanks(study, scene); })};
   if (study.task->single_gears) {
     task.model = ComplianceModel::Fe;
     task.shaft.pinion.reset();
     task.shaft.wheel.reset();
+    task.other_flanks = false;
   }
   return task;
 }

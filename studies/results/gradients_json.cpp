@@ -183,7 +183,7 @@ Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   Json cycle = Json::array(), shafts = Json::array();
   ShaftMisalignment by_shafts{0.0, Eigen::RowVectorXd::Zero(loaded.cycle.force_derivative.size())};
-  const std::optional<ShaftPair> at_load = results.shafts ? std::optional(results.shafts->at_torque(loaded.torque)) : std::nullopt;
+  const std::optional<ShaftPair> at_load = results.shafts ? std::optional(shafts_under(*results.shafts, model, loaded.torque)) : std::nullopt;
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     const LoadedPosition& position = loaded.cycle.positions[i];
     const std::vector<LineEnd> ends = line_ends(model, model.positions[i], position, loaded.condition);

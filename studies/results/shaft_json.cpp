@@ -24,6 +24,13 @@ void add_law(const BearingLawData& law, Json& json) {
   json["contact_angle_deg"] = std::isnan(law.contact_angle) ? 0.0 : in_deg(law.contact_angle);
 }
 
+/// It says all of how the bearing yields.
+void add_matrix(const Eigen::MatrixXd& stiffness, Json& json) {
+  for (const char* single : {"radial_stiffness_N_per_um", "axial_stiffness_N_per_um", "tilting_stiffness_Nm_per_rad"}) json.erase(single);
+  Json& rows = json["stiffness_matrix_N_mm_rad"] = Json::array();
+  for (const auto& row : stiffness.rowwise()) rows.push_back(std::vector<double>(row.begin(), row.end()));
+}
+
 }  // namespace
 
 Json bearing_json(const ShaftBearing& bearing) {
@@ -31,6 +38,7 @@ Json bearing_json(const ShaftBearing& bearing) {
             {"radial_stiffness_N_per_um", stiffness_json(bearing.radial_stiffness, newton_per_micrometre)},
             {"axial_stiffness_N_per_um", stiffness_json(bearing.axial_stiffness, newton_per_micrometre)},
             {"tilting_stiffness_Nm_per_rad", bearing.tilting_stiffness / units::newton_metre}};
+  if (bearing.has_matrix()) add_matrix(bearing.stiffness_matrix, json);
   if (bearing.law.given()) add_law(bearing.law, json);
   if (!bearing.name.empty()) json["name"] = bearing.name;
   if (bearing.radial_clearance > 0.0) json["radial_clearance_um"] = in_um(bearing.radial_clearance);

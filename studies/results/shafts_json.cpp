@@ -49,7 +49,7 @@ std::string shaft_table(const StudyResults& results, std::size_t width) {
     const LoadedResult& loaded = results.loaded[l];
     if (!governs[l] || loaded.design == "before") continue;
     const MeshModel& model = results.models[loaded.model];
-    const ShaftPair shafts = results.shafts->at_torque(loaded.torque);
+    const ShaftPair shafts = shafts_under(*results.shafts, model, loaded.torque);
     const double misalignment = shaft_misalignment(shafts, model, loaded.cycle);
     const UnitState unit = shafts.state(loaded.torque, model.axial_offset);
     out += fmt::format("{:<{}}  {:>10.6g}", loaded.scene, width, in_Nm(loaded.torque));
@@ -62,7 +62,7 @@ std::string shaft_table(const StudyResults& results, std::size_t width) {
 
 void add_shaft_motion(const LoadedResult& loaded, const StudyResults& results, Json& json) {
   const MeshModel& model = results.models[loaded.model];
-  const ShaftPair shafts = results.shafts->at_torque(loaded.torque);
+  const ShaftPair shafts = shafts_under(*results.shafts, model, loaded.torque);
   if (shafts.has_unit() || results.shafts->depends_on_load()) json["unit"] = unit_state_json(shafts.state(loaded.torque, model.axial_offset));
   json["shafts"] = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {

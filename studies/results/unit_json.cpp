@@ -15,7 +15,8 @@ Json vector_json(const auto& vector, double unit = 1.0) {
   return json;
 }
 
-Json torque_json(double torque) { return std::isnan(torque) ? Json() : Json(torque / units::newton_metre); }
+Json number_json(double value) { return std::isnan(value) ? Json() : Json(value); }
+Json torque_json(double torque) { return number_json(torque / units::newton_metre); }
 
 Json further_shaft_json(const ShaftData& shaft) {
   Json json = shaft_json(shaft);
@@ -35,7 +36,8 @@ Json mesh_json(const UnitMesh& mesh) {
             {"hand_1", mesh.hand == Hand::Right ? "right" : "left"},
             {"centre_distance_mm", geometry.centre_distance},
             {"angle_deg", in_deg(mesh.angle)},
-            {"torque_1_Nm", torque_json(mesh.torque)}};
+            {"torque_1_Nm", torque_json(mesh.torque)},
+            {"stiffness_N_per_mm_um", number_json(mesh.stiffness * units::um)}};
   for (std::size_t g = 0; g < 2; ++g) {
     const std::string number = g == 0 ? "_1" : "_2";
     json["shaft" + number] = mesh.gears[g].shaft;
@@ -56,7 +58,9 @@ Json mesh_state_json(const MeshState& mesh) {
           {"normal_force_N", mesh.normal_force},
           {"force_on_2_N", vector_json(mesh.force)},
           {"flank_1", name_of(mesh.first_flank)},
-          {"driver", mesh.driver < 0 ? Json() : Json(mesh.shafts[static_cast<std::size_t>(mesh.driver)])}};
+          {"driver", mesh.driver < 0 ? Json() : Json(mesh.shafts[static_cast<std::size_t>(mesh.driver)])},
+          {"misalignment_um", number_json(in_um(mesh.misalignment))},
+          {"face_load_factor", number_json(mesh.face_load_factor)}};
 }
 
 /// What was given and what the loaded contact has.
@@ -130,7 +134,8 @@ Json unit_json(const UnitData& unit) {
                            return {{"shaft", load.shaft},
                                    {"position_mm", load.position},
                                    {"force_N", vector_json(load.force)},
-                                   {"moment_Nm", vector_json(load.moment, units::newton_metre)}};
+                                   {"moment_Nm", vector_json(load.moment, units::newton_metre)},
+                                   {"constant", load.constant}};
                          })},
           {"joints", list(unit.joints,
                           [](const ShaftJoint& joint) -> Json {

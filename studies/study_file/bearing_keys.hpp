@@ -12,7 +12,8 @@ namespace flankwright::studies {
 inline constexpr std::array bearing_types{BearingType::DeepGrooveBall, BearingType::AngularContactBall, BearingType::CylindricalRoller,
                                           BearingType::TaperedRoller};
 
-/// Keys of a bearing's radial stiffness where it depends on the load: a table, or the bearing's type and its rolling elements.
+/// Keys of a bearing's stiffness beyond a number for each direction: a matrix, or where it depends on the load a table, or the bearing's type and its
+/// rolling elements.
 /// @param list  "unit.joints[]", the table that the keys belong to
 template <ShaftBearing& (*bearing)(StudyBuilder&, Member)>
 std::vector<SchemaKey> bearing_law_rows(const std::string& list) {
@@ -22,6 +23,14 @@ std::vector<SchemaKey> bearing_law_rows(const std::string& list) {
   // A row is read as a row:
   // clang-format off
   return {
+      {.path = list + ".stiffness_matrix", .kind = NumberList, .range = within(1e15), .fallback = "(none: the stiffnesses one by one)",
+       .meaning = "5 x 5, row by row: forces x, y, z and moments about x and y by displacements x, y, z and turns about x and y, in N, mm and rad; symmetric, zeros where it does not hold; instead of all other stiffnesses",
+       .store = [](StudyBuilder& d, Member m, const Value& v) {
+         constexpr Eigen::Index size = 5;
+         Eigen::MatrixXd& stiffness = bearing(d, m).stiffness_matrix;
+         stiffness = Eigen::Map<const Eigen::VectorXd>(v.numbers.data(), std::ssize(v.numbers));
+         if (std::ssize(v.numbers) == size * size) stiffness.resize(size, size);
+       }},
       {.path = list + ".force_table", .kind = NumberList, .quantity = Quantity::Force, .range = from_zero(1e9), .fallback = "(none: a constant stiffness)",
        .meaning = "radial forces, increasing, of which deflection_table has the deflections; linear between the points, from the origin on and beyond the last; instead of radial_stiffness",
        .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.table_force = v.numbers; }},

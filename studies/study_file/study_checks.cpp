@@ -186,11 +186,12 @@ namespace {
 /// What belongs to one flank, or is known for the pair's own flanks alone.
 std::optional<std::string> bound_to_own_flanks(const StudyReading& reading) {
   const Study& study = reading.builder.study;
-  if (!study.unit.empty()) return "a gear unit, whose power flow decides the flanks";
+  for (std::size_t i = 0; i < study.unit.loads.size(); ++i) {
+    if (study.unit.loads[i].keeps_direction()) continue;
+    return "unit.loads." + std::to_string(i) + ", a force in proportion to the torque, which would turn round with it (constant = \"yes\" keeps it)";
+  }
   for (const Member m : members) {
     const std::string name = name_of(m);
-    if (study.shaft[m]) return name + ".shaft, which bends another way under the other flank";
-    if (study.body[m].web) return name + ".body with a web";
     for (const char* grid : {".modification.grid", ".error.grids"}) {
       if (reading.find(name + grid) != nullptr) return name + grid + ", measured on one flank";
     }

@@ -11,15 +11,15 @@ namespace flankwright::studies {
 
 namespace {
 
-bool is_axial(const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; }
+bool is_axial(const ShaftBearing& bearing) { return bearing.holds()[2]; }
 
 /// @param joined  a bearing between shafts holds it axially
 void complete(ShaftData& shaft, const Material& of_gear, bool joined) {
   if (std::isnan(shaft.material.youngs_modulus)) shaft.material.youngs_modulus = of_gear.youngs_modulus;
   if (std::isnan(shaft.material.poissons_ratio)) shaft.material.poissons_ratio = of_gear.poissons_ratio;
-  if (!shaft.bearings.empty() && !joined && std::ranges::none_of(shaft.bearings, is_axial)) {
-    shaft.bearings.front().axial_stiffness = std::numeric_limits<double>::infinity();
-  }
+  if (joined || std::ranges::any_of(shaft.bearings, is_axial)) return;
+  const auto first = std::ranges::find_if_not(shaft.bearings, &ShaftBearing::has_matrix);  // a matrix says all of its bearing
+  if (first != shaft.bearings.end()) first->axial_stiffness = std::numeric_limits<double>::infinity();
 }
 
 void refuse(StudyReading& reading, const std::string& key, const InvalidInput& problem) {
@@ -73,12 +73,14 @@ void check_equilibria(StudyReading& reading) {
   if (!reading.problems.empty() || !find_problems(study.pair).empty()) return;
   const std::shared_ptr<const ShaftPair> shafts = make_shafts(study, make_gear_pair(study.pair));
   if (!shafts || !shafts->depends_on_load()) return;
-  std::set<double> torques;
-  for (const Scene& scene : study.scenes) torques.insert(scene.torques.begin(), scene.torques.end());
-  for (const double torque : torques) {
+  std::set<std::pair<bool, double>> cases;  // on the other flanks, torque
+  for (const Scene& scene : study.scenes) {
+    for (const double torque : scene.torques) cases.emplace(loads_other_flanks(study, scene), torque);
+  }
+  for (const auto& [on_other_flanks, torque] : cases) {
     if (!(torque > 0.0)) continue;
     try {
-      shafts->at_torque(torque);
+      on_other_flanks ? shafts->reversed().at_torque(torque) : shafts->at_torque(torque);
     } catch (const InvalidInput& problem) {
       return refuse(reading, study.spectrum.empty() ? problem.field() : "load.spectrum", problem);
     }

@@ -11,4 +11,10 @@ std::string analysis();
 /// The same pair optimised over three scenes, te_peak_to_peak bounded.
 std::string optimisation();
 
+/// A left-hand helical pair 21:40 that works on its left flanks, its pinion on a shaft without a coupling: it needs unit().
+std::string unit_pair();
+
+/// The unit around it: an input shaft, and a first stage on the pinion's shaft.
+std::string unit();
+
 }  // namespace flankwright::studies::small

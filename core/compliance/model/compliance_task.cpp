@@ -48,6 +48,16 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
   return run;
 }
 
+std::optional<ComplianceTask> task_of_other_flanks(const ComplianceTask& task) {
+  if (!task.other_flanks) return std::nullopt;
+  ComplianceTask there = task;
+  there.pair = task.pair.on_other_flanks();
+  there.other_flanks = false;
+  const auto alike = [&](Member member) { return influence_table_task(task, member).gear.body == influence_table_task(there, member).gear.body; };
+  if (alike(Member::Pinion) && alike(Member::Wheel)) return std::nullopt;
+  return there;
+}
+
 std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableTask& gear) {
   return task.model == ComplianceModel::Fitted ? CorrectionLibrary::shipped().unknown(gear.gear, gear.poissons_ratio) : "";
 }

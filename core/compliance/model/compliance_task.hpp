@@ -20,7 +20,13 @@ struct ComplianceTask {
   PerGear<std::optional<ShaftData>> shaft{};
   bool root_stress{false};   ///< solved by finite elements, whatever the model
   bool rigid_bodies{false};  ///< also wanted: the same gears on rigid bodies, where the model couples teeth
+  bool other_flanks{false};  ///< also wanted: the same gears on the pair's other flanks, where their bodies differ there
 };
+
+/// The task of the pair on its other flanks, which the model must solve by itself; nothing where the task does not want it, or where turned over the gears are
+/// themselves: the ends of a web, and the end at which the torque leaves, change sides.
+/// @throws InvalidInput  as influence_table_task()
+std::optional<ComplianceTask> task_of_other_flanks(const ComplianceTask& task);
 
 /// The run to be solved for one gear, on a coarse mesh where the model is Fitted. It has the gear's own face width,
 /// body and tip, as many teeth as the pair needs (two at least, so that the loaded tooth's neighbours are supported as

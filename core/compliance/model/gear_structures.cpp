@@ -44,6 +44,10 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
   if (!is_structural && !task.root_stress) return structures;
   structures.finite_elements = solve_finite_elements(task, build);
   structures.notes = library_notes(task);
+  if (const std::optional<ComplianceTask> there = task_of_other_flanks(task)) {
+    structures.other_flanks = std::make_shared<const GearStructures>(build_compliance(*there, build));
+  }
+  const GearStructures known_there = structures.other_flanks ? *structures.other_flanks : GearStructures{};
   const FiniteElementRuns& runs = *structures.finite_elements;
   const Sections sections(task, runs, build);
   if (is_structural) {
@@ -64,7 +68,7 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
     };
     const GearStructure pinion = structure(Member::Pinion, task.material.pinion);
     const GearStructure wheel = structure(Member::Wheel, task.material.wheel);
-    structures.pair = std::make_shared<const StructuralPair>(task.pair, pinion, wheel);
+    structures.pair = std::make_shared<const StructuralPair>(task.pair, pinion, wheel, known_there.pair);
     if (runs[Member::Pinion].rim_motion || runs[Member::Wheel].rim_motion) {
       structures.rim_motion = std::make_shared<const PairRimMotion>(
           task.pair, PerGear<PairRimMotion::Rim>{{runs[Member::Pinion].rim_motion, task.material.pinion.youngs_modulus},
@@ -72,9 +76,9 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
     }
   }
   if (const auto& pinion = runs.root_stress_run(Member::Pinion).root_stress) {
-    structures.root_stress =
-        std::make_shared<const TabulatedRootStress>(task.pair, sections.root_stress(Member::Pinion, *pinion),
-                                                    sections.root_stress(Member::Wheel, *runs.root_stress_run(Member::Wheel).root_stress));
+    structures.root_stress = std::make_shared<const TabulatedRootStress>(
+        task.pair, sections.root_stress(Member::Pinion, *pinion),
+        sections.root_stress(Member::Wheel, *runs.root_stress_run(Member::Wheel).root_stress), known_there.root_stress);
   }
   return structures;
 }

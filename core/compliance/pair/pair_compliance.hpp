@@ -97,16 +97,18 @@ struct GearStructure {
 /// have them, see IntervalMean.
 class StructuralPair final : public PairCompliance {
  public:
-  StructuralPair(const GearPair& pair, GearStructure pinion, GearStructure wheel)
-      : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
+  /// @param other_flanks  the pair on its other flanks, where a gear's body differs there; null: bodies whose ends are alike
+  StructuralPair(const GearPair& pair, GearStructure pinion, GearStructure wheel, std::shared_ptr<const PairCompliance> other_flanks = {})
+      : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)), other_flanks_(std::move(other_flanks)) {}
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
   bool knows_rigid_bodies() const override { return pinion_.on_rigid_body && wheel_.on_rigid_body; }
   Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override;
 
   HalfSpaceCorrections half_space_corrections() const override { return {pinion_.half_space, wheel_.half_space}; }
 
-  /// Turned over a gear is itself where both ends of its body are alike, as those of a solid one are; needs such bodies.
+  /// Turned over a gear is itself where both ends of its body are alike, as those of a solid one are.
   std::shared_ptr<const PairCompliance> on_other_flanks() const override {
+    if (other_flanks_) return other_flanks_;
     return std::make_shared<const StructuralPair>(pair_.on_other_flanks(), pinion_, wheel_);
   }
 
@@ -117,6 +119,7 @@ class StructuralPair final : public PairCompliance {
 
   GearPair pair_;
   GearStructure pinion_, wheel_;
+  std::shared_ptr<const PairCompliance> other_flanks_;
 };
 
 /// The station of a contact point on one gear of a pair. GearToMesh has the gear right-handed and loaded on its

@@ -65,8 +65,9 @@ Eigen::Matrix3Xd RootStressInfluence::components_of(Eigen::Index station) const 
   return result;
 }
 
-TabulatedRootStress::TabulatedRootStress(const GearPair& pair, GearRootStress pinion, GearRootStress wheel)
-    : pair_(pair), gears_{std::move(pinion), std::move(wheel)} {
+TabulatedRootStress::TabulatedRootStress(const GearPair& pair, GearRootStress pinion, GearRootStress wheel,
+                                         std::shared_ptr<const PairRootStress> other_flanks)
+    : pair_(pair), gears_{std::move(pinion), std::move(wheel)}, other_flanks_(std::move(other_flanks)) {
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     const auto& [table, correction] = gears_[member];
     if (!correction) continue;

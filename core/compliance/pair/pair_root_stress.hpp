@@ -95,11 +95,12 @@ struct GearRootStress {
 /// From the tables of both gears.
 class TabulatedRootStress final : public PairRootStress {
  public:
-  TabulatedRootStress(const GearPair& pair, GearRootStress pinion, GearRootStress wheel);
+  /// @param other_flanks  as StructuralPair
+  TabulatedRootStress(const GearPair& pair, GearRootStress pinion, GearRootStress wheel, std::shared_ptr<const PairRootStress> other_flanks = {});
   RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
 
-  /// Needs bodies as StructuralPair::on_other_flanks().
   std::shared_ptr<const PairRootStress> on_other_flanks() const override {
+    if (other_flanks_) return other_flanks_;
     return std::make_shared<const TabulatedRootStress>(pair_.on_other_flanks(), gears_.pinion, gears_.wheel);
   }
 
@@ -108,6 +109,7 @@ class TabulatedRootStress final : public PairRootStress {
  private:
   GearPair pair_;
   PerGear<GearRootStress> gears_;
+  std::shared_ptr<const PairRootStress> other_flanks_;
   PerGear<std::shared_ptr<const Eigen::Matrix3Xd>> components_;  ///< RootStressInfluence::Added::components
 };
 

@@ -1,7 +1,9 @@
 #include "core/compliance/shaft/shaft_data.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/base/findings.hpp"
@@ -38,10 +40,11 @@ void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");
     findings.require(bearing.radial_clearance >= 0.0 && std::isfinite(bearing.radial_clearance), name + "radial_clearance", bearing.radial_clearance,
                      "0 mm or more");
-    for (const InvalidInput& problem : find_law_problems(bearing)) findings.add({name + problem.field(), problem.value(), problem.allowed()});
+    for (const InvalidInput& problem : find_yielding_problems(bearing)) findings.add({name + problem.field(), problem.value(), problem.allowed()});
     positions.push_back(bearing.position);
-    holds_axially = holds_axially || bearing.axial_stiffness > 0.0;
-    holds_tilt = holds_tilt || bearing.tilting_stiffness > 0.0;
+    const std::array<bool, 5> holds = bearing.holds();
+    holds_axially = holds_axially || holds[2];
+    holds_tilt = holds_tilt || (holds[3] && holds[4]);
   }
   if (!alone) return;
   findings.require(positions.size() >= 2 || (positions.size() == 1 && holds_tilt), "bearings", std::to_string(positions.size()),
@@ -51,8 +54,49 @@ void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
 
 }  // namespace
 
-std::vector<InvalidInput> find_law_problems(const ShaftBearing& bearing) {
+std::array<bool, 5> ShaftBearing::holds() const {
+  if (!has_matrix()) return {radial_stiffness > 0.0, radial_stiffness > 0.0, axial_stiffness > 0.0, tilting_stiffness > 0.0, tilting_stiffness > 0.0};
+  std::array<bool, 5> held;
+  for (Eigen::Index i = 0; i < 5; ++i) held[static_cast<std::size_t>(i)] = !stiffness_matrix.row(i).isZero(0.0);
+  return held;
+}
+
+namespace {
+
+std::optional<InvalidInput> find_matrix_problem(const ShaftBearing& bearing) {
+  const auto problem = [](const std::string& value, const std::string& allowed) { return InvalidInput("stiffness_matrix", value, allowed); };
+  const Eigen::MatrixXd& k = bearing.stiffness_matrix;
+  if (k.rows() != 5 || k.cols() != 5) {
+    return problem(std::to_string(k.size()) + " numbers",
+                   "25 numbers, row by row: forces x, y, z and moments about x and y by displacements x, y, z and turns about x and y");
+  }
+  if (bearing.depends_on_load() || std::isfinite(bearing.radial_stiffness) || bearing.axial_stiffness > 0.0 || bearing.tilting_stiffness > 0.0) {
+    return problem("beside another stiffness or a clearance", "a matrix alone, which says all of how the bearing yields");
+  }
+  constexpr double round_off = 1e-6;  // |k_ij - k_ji| at most this part of sqrt(k_ii k_jj): matrices come rounded
+  std::vector<Eigen::Index> held;
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    if (bearing.holds()[static_cast<std::size_t>(i)]) held.push_back(i);
+    for (Eigen::Index j = 0; j < i; ++j) {
+      if (!(std::abs(k(i, j) - k(j, i)) <= round_off * std::sqrt(std::abs(k(i, i) * k(j, j))))) return problem("not symmetric", "a symmetric matrix");
+    }
+  }
+  const bool across = bearing.holds()[0] && bearing.holds()[1];
+  if (!across) return problem("no stiffness across the shaft", "one that holds the shaft along x and y");
+  if (Eigen::LLT<Eigen::MatrixXd>(k(held, held)).info() != Eigen::Success) {
+    return problem("not positive definite", "a matrix that is positive definite where its rows are not 0: no motion without force");
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<InvalidInput> find_yielding_problems(const ShaftBearing& bearing) {
   std::vector<InvalidInput> problems = find_problems(bearing.law);
+  if (bearing.has_matrix()) {
+    if (const std::optional<InvalidInput> problem = find_matrix_problem(bearing)) problems.push_back(*problem);
+    return problems;
+  }
   if (bearing.law.given() && std::isfinite(bearing.radial_stiffness)) {
     problems.emplace_back("radial_stiffness", in_words(bearing.radial_stiffness) + " N/mm",
                           "none beside a table or a type, which say how the bearing yields");

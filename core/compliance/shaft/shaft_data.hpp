@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -27,13 +29,20 @@ struct ShaftBearing {
   double radial_clearance{0.0};  ///< of the diameters: how far the shaft can be moved across, all the way [mm], >= 0
   std::string name{};            ///< for results; empty: its shaft and number
   BearingLawData law{};          ///< beside it radial_stiffness is infinite
+  /// Forces x, y, z and moments about x and y on the shaft per its displacements x, y, z and turns about x and y in the bearing, 5 x 5
+  /// [N, mm, rad], symmetric, a row and column of zeros where it does not hold, positive definite without these; instead of all other
+  /// stiffnesses. Empty: none.
+  Eigen::MatrixXd stiffness_matrix{};
 
   /// Its force is not in proportion to the shaft's displacement in it.
   bool depends_on_load() const { return radial_clearance > 0.0 || law.given(); }
+  bool has_matrix() const { return stiffness_matrix.size() > 0; }
+  /// Which of the motions x, y, z, turns about x and y it holds.
+  std::array<bool, 5> holds() const;
 };
 
-/// What cannot be in how a bearing yields radially: its law, and a radial_stiffness beside it.
-std::vector<InvalidInput> find_law_problems(const ShaftBearing& bearing);
+/// What cannot be in how a bearing yields: its law and a radial_stiffness beside it, its matrix and any other stiffness beside that.
+std::vector<InvalidInput> find_yielding_problems(const ShaftBearing& bearing);
 
 /// A shaft, one that carries a gear of the pair or another one of its gear unit. Positions run along the pair's z from the
 /// shaft's first end, the one of lowest z.

@@ -86,18 +86,20 @@ ShaftPair::ShaftPair(const GearPair& pair, ShaftsOfPair shafts, PerGear<GearBody
   if (!problems.empty()) throw problems.front();
   shafts_ = std::move(shafts);
   settle_turning_holds(shafts_);
-  if (pair.data.working_flank == WorkingFlank::Left) shafts_.unit = mirrored(std::move(shafts_.unit));
+  given_ = shafts_;
+  if (pair.data.working_flank == WorkingFlank::Left) shafts_ = mirrored(std::move(shafts_));
   for (const Member m : {Member::Pinion, Member::Wheel}) index_[m] = shafts_.find(m).value_or(-1);
   if (!shafts_.any()) return;
   for (std::size_t i = 0; i < shafts_.all().size(); ++i) {
     pieces_.push_back(shaft_pieces(*shafts_.all()[i], seats_on(shafts_, static_cast<int>(i), pair)));
   }
-  supports_ = make_supports(shafts_);
-  system_.emplace(pieces_, supports_.supports, supports_.housing);
   if (!shafts_.unit.empty()) {
     torques_ = torque_balance(shafts_, pair);
     outside_ = outside_loads(shafts_, torques_);
+    constant_ = constant_loads(shafts_);
   }
+  supports_ = make_supports(shafts_, torques_);
+  system_.emplace(pieces_, supports_.supports, supports_.further);
   for (std::size_t i = 0; i < supports_.bearings.size(); ++i) {
     const ShaftBearing& bearing = supports_.bearings[i].data;
     if (!bearing.depends_on_load()) continue;
@@ -164,8 +166,17 @@ OutsideMotion ShaftPair::outside_motion(const std::vector<ContactPoint>& points,
   if (!outside_.empty()) {
     motion.by_force = system_->flexibility(here, outside_, parts(), static_cast<int>(outside_.size())).col(0) / force_per_torque();
   }
-  if (prestrain_.size() > 0) motion.fixed = -system_->reactions(here, parts()).transpose() * prestrain_;
+  motion.fixed = fixed_motion(here, parts());
   return motion;
+}
+
+Eigen::VectorXd ShaftPair::fixed_motion(const std::vector<BeamLoad>& rows, int parts) const {
+  Eigen::VectorXd motion;
+  if (prestrain_.size() > 0) motion = -system_->reactions(rows, parts).transpose() * prestrain_;
+  if (constant_.empty()) return motion;
+  const Eigen::VectorXd by_loads = system_->flexibility(rows, constant_, parts, static_cast<int>(constant_.size())).col(0);
+  if (motion.size() == 0) return by_loads;
+  return motion + by_loads;
 }
 
 double ShaftPair::common_face_middle(double axial_offset) const {
@@ -195,7 +206,7 @@ ShaftMotion ShaftPair::moved(Member member, const std::vector<ContactPoint>& poi
   if (!outside_.empty()) {
     motion += forces.sum() / force_per_torque() * system_->flexibility(here, outside_, parts(member), static_cast<int>(outside_.size())).col(0);
   }
-  if (prestrain_.size() > 0 && fixed != 0.0) motion -= fixed * (system_->reactions(here, parts(member)).transpose() * prestrain_);
+  if (const Eigen::VectorXd always = fixed_motion(here, parts(member)); always.size() > 0) motion += fixed * always;
   motion /= std::cos(pair_.base_helix_angle);
   result.displacement = motion[1];
   result.misalignment = motion[2] - motion[0];

@@ -66,7 +66,7 @@ struct ShaftMotion {
 ///
 ///     g(p) = t_p' S^-1 f T - s_p'v         [outside_motion()],
 ///
-/// where v are displacements of shafts in their bearings that are forced on them, and s_p the supports' forces under t_p. With clearances, and with bearings
+/// plus t_p' S^-1 c of loads c that are there whatever the torque is, and v are displacements of shafts in their bearings that are forced on them, and s_p the supports' forces under t_p. With clearances, and with bearings
 /// whose stiffness depends on the load, S is that at the equilibrium under mean forces, the pair's by one normal force at the pitch point at mid face: a bearing
 /// whose shaft is pressed against the border, shifted by c in the direction e of its force F, yields by (c/|F|) (1 - e e') beyond its spring, one with a law
 /// by its tangent, see tangent_of(), and one that carries nothing is not there.
@@ -89,6 +89,10 @@ class ShaftPair final : public PairCompliance {
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
   OutsideMotion outside_motion(const std::vector<ContactPoint>& points, double axial_offset) const override;
   bool depends_on_load() const override { return !nonlinear_.empty(); }
+  /// Other meshes change their flanks as well. @pre as with_torques_reversed()
+  std::shared_ptr<const PairCompliance> on_other_flanks() const override { return std::make_shared<const ShaftPair>(reversed()); }
+  /// The same as what it is. @pre it is not linearised
+  ShaftPair reversed() const { return {pair_.on_other_flanks(), with_torques_reversed(given_), body_}; }
   /// @throws InvalidInput  where the equilibrium in the bearings is not found, or leaves a shaft loose
   std::shared_ptr<const PairCompliance> linearised_at(double pinion_torque) const override;
   /// The same as what it is; this one where nothing depends on the load.
@@ -121,6 +125,8 @@ class ShaftPair final : public PairCompliance {
   double force_per_torque() const { return 1.0 / (pair_.pinion.base_radius * std::cos(pair_.base_helix_angle)); }
   /// All mean forces per torque on the pinion.
   std::vector<BeamLoad> mean_loads(double axial_offset) const;
+  /// What forces that do not change with the torque do to the rows of unit loads [mm].
+  Eigen::VectorXd fixed_motion(const std::vector<BeamLoad>& rows, int parts) const;
   ShaftMotion moved(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces, double axial_offset, double fixed) const;
   /// Forces of the supports under mean forces [N or N mm].
   Eigen::VectorXd mean_reactions(double pinion_torque, double axial_offset) const;
@@ -133,12 +139,14 @@ class ShaftPair final : public PairCompliance {
   /// Marks the supports of a shaft's load-dependent bearings as kept. @return whether one was not
   bool keep_bearings_of(int shaft, std::vector<bool>& kept) const;
   void find_drivers(UnitState& state) const;
+  void add_meshes(double pinion_torque, double axial_offset, UnitState& state) const;
   void add_bearings(double pinion_torque, double axial_offset, UnitState& state) const;
   void add_shafts(double pinion_torque, double axial_offset, UnitState& state) const;
 
   GearPair pair_;
   PathOfContact path_;
   PerGear<GearBodyIn> body_;
+  ShaftsOfPair given_;
   ShaftsOfPair shafts_;  ///< as the pair is analysed
   PerGear<int> index_{-1, -1};
   UnitSupports supports_;
@@ -146,6 +154,7 @@ class ShaftPair final : public PairCompliance {
   std::optional<BeamSystem> system_;  ///< nothing: all are rigid
   UnitTorques torques_;
   std::vector<BeamLoad> outside_;                     ///< per torque on the pinion
+  std::vector<BeamLoad> constant_;                    ///< whatever the torque is
   std::vector<int> nonlinear_;                        ///< indices of bearings that depend on the load, of shafts that are not linearised
   std::vector<NonlinearBearing> nonlinear_bearings_;  ///< these, in the same order
   Eigen::VectorXd prestrain_;                         ///< of linearised shafts: displacements forced on the supports of system_ [mm]; empty: none

@@ -33,6 +33,7 @@ Eigen::VectorXd ShaftPair::mean_reactions(double pinion_torque, double axial_off
   const std::vector<BeamLoad> loads = mean_loads(axial_offset);
   Eigen::VectorXd forces = pinion_torque * system_->reactions(loads, static_cast<int>(loads.size())).col(0);
   if (prestrain_.size() > 0) forces += system_->prestrain_stiffness() * prestrain_;
+  if (!constant_.empty()) forces += system_->reactions(constant_, static_cast<int>(constant_.size())).col(0);
   return forces;
 }
 
@@ -64,7 +65,7 @@ bool ShaftPair::keep_bearings_of(int shaft, std::vector<bool>& kept) const {
 ShaftPair ShaftPair::with_tangents(const ClearanceState& found, double pinion_torque) const {
   ShaftPair tangent = *this;
   const auto n = static_cast<Eigen::Index>(supports_.supports.size());
-  Eigen::MatrixXd further = supports_.housing.size() > 0 ? supports_.housing : Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n));
+  Eigen::MatrixXd further = supports_.further.size() > 0 ? supports_.further : Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n));
   Eigen::VectorXd prestrain = Eigen::VectorXd::Zero(n);
   std::vector<bool> kept(supports_.supports.size(), true);
   for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
@@ -106,12 +107,14 @@ ShaftPair ShaftPair::with_tangents(const ClearanceState& found, double pinion_to
   for (UnitBearing& bearing : tangent.supports_.bearings) {
     for (int& support : bearing.supports) support = support < 0 ? -1 : index[static_cast<std::size_t>(support)];
   }
-  for (int& support : tangent.supports_.turning) support = support < 0 ? -1 : index[static_cast<std::size_t>(support)];
-  tangent.supports_.housing = further(left, left);
+  for (std::vector<int>* held : {&tangent.supports_.turning, &tangent.supports_.tilting}) {
+    for (int& support : *held) support = support < 0 ? -1 : index[static_cast<std::size_t>(support)];
+  }
+  tangent.supports_.further = further(left, left);
   tangent.prestrain_ = prestrain(left);
   tangent.nonlinear_.clear();
   tangent.nonlinear_bearings_.clear();
-  tangent.system_.emplace(pieces_, tangent.supports_.supports, tangent.supports_.housing);
+  tangent.system_.emplace(pieces_, tangent.supports_.supports, tangent.supports_.further);
   return tangent;
 }
 
@@ -195,6 +198,7 @@ void ShaftPair::add_shafts(double pinion_torque, double axial_offset, UnitState&
   // All that acts, to be summed up shaft by shaft.
   std::vector<BeamLoad> acting;
   for (const BeamLoad& load : mean) acting.push_back(load.times(pinion_torque));
+  acting.insert(acting.end(), constant_.begin(), constant_.end());
   for (std::size_t i = 0; i < supports_.supports.size(); ++i) {
     const BeamSupport& support = supports_.supports[i];
     const double force = forces[static_cast<Eigen::Index>(i)];
@@ -218,8 +222,10 @@ void ShaftPair::add_shafts(double pinion_torque, double axial_offset, UnitState&
       if (bearing.shaft == beam) shaft.z.push_back(bearing.data.position);
       if (bearing.outer_shaft == beam) shaft.z.push_back(bearing.outer_position);
     }
-    for (const BeamLoad& load : mean) {
-      if (load.beam == beam) shaft.z.push_back(load.z);
+    for (const std::vector<BeamLoad>* loads : {&mean, &constant_}) {
+      for (const BeamLoad& load : *loads) {
+        if (load.beam == beam) shaft.z.push_back(load.z);
+      }
     }
     std::ranges::sort(shaft.z);
     const double round_off = 1e-9 * data.length();  // stations nearer to each other than this are one
@@ -234,7 +240,7 @@ void ShaftPair::add_shafts(double pinion_torque, double axial_offset, UnitState&
       }
     }
     Eigen::VectorXd moved = pinion_torque * system_->flexibility(units, mean, 1, static_cast<int>(mean.size())).col(0);
-    if (prestrain_.size() > 0) moved -= system_->reactions(units).transpose() * prestrain_;
+    if (const Eigen::VectorXd always = fixed_motion(units, 1); always.size() > 0) moved += always;
     for (std::size_t k = 0; k < shaft.z.size(); ++k) {
       shaft.displacement.emplace_back(moved.segment<3>(static_cast<Eigen::Index>(6 * k)));
       shaft.turn.emplace_back(moved.segment<3>(static_cast<Eigen::Index>(6 * k + 3)));
@@ -274,6 +280,30 @@ void ShaftPair::find_drivers(UnitState& state) const {
   }
 }
 
+void ShaftPair::add_meshes(double pinion_torque, double axial_offset, UnitState& state) const {
+  const std::vector<BeamLoad> mean = mean_loads(axial_offset);
+  for (std::size_t m = 0; m < shafts_.unit.meshes.size(); ++m) {
+    const UnitMesh& mesh = shafts_.unit.meshes[m];
+    const double torque = torques_.mesh[m] * pinion_torque, face_width = mesh.face_width();
+    MeshState& of = state.meshes.emplace_back();
+    of.name = mesh.name.empty() ? "mesh " + std::to_string(m + 1) : mesh.name;
+    of.shafts = {mesh.gears[0].shaft, mesh.gears[1].shaft};
+    of.torque = {torque, torque * mesh.gears[1].teeth / mesh.gears[0].teeth};
+    of.force = mesh_loads(shafts_, mesh, torque)[1].force;
+    of.normal_force = of.force.norm();
+    of.first_flank = torque >= 0.0 ? WorkingFlank::Right : WorkingFlank::Left;
+    if (!(face_width > 0.0)) continue;
+    const std::array<BeamLoad, 2> tilt = mesh_tilt(shafts_, mesh, torque);
+    const std::vector<BeamLoad> both(tilt.begin(), tilt.end());
+    Eigen::VectorXd tilted = pinion_torque * system_->flexibility(both, mean, 2, static_cast<int>(mean.size())).col(0);
+    if (const Eigen::VectorXd always = fixed_motion(both, 2); always.size() > 0) tilted += always;
+    of.misalignment = face_width * tilted[0];
+    if (supports_.tilting[m] < 0) continue;
+    const double mean_load = std::hypot(of.force.x(), of.force.y()) / face_width;  // along the transverse base tangent, as the stiffness is
+    of.face_load_factor = 1.0 + 0.5 * mesh.stiffness * std::abs(of.misalignment) / mean_load;
+  }
+}
+
 UnitState ShaftPair::state(double pinion_torque, double axial_offset) const {
   if (state_) return *state_;
   if (!nonlinear_.empty()) return at_torque(pinion_torque).state(pinion_torque, axial_offset);
@@ -287,17 +317,7 @@ UnitState ShaftPair::state(double pinion_torque, double axial_offset) const {
   studied.normal_force = own;
   studied.force =
       own * Eigen::Vector3d(std::cos(beta) * std::sin(alpha), std::cos(beta) * std::cos(alpha), -pair_.contact_line_sense() * std::sin(beta));
-  for (std::size_t m = 0; m < shafts_.unit.meshes.size(); ++m) {
-    const UnitMesh& mesh = shafts_.unit.meshes[m];
-    const double torque = torques_.mesh[m] * pinion_torque;
-    MeshState& of = state.meshes.emplace_back();
-    of.name = mesh.name.empty() ? "mesh " + std::to_string(m + 1) : mesh.name;
-    of.shafts = {mesh.gears[0].shaft, mesh.gears[1].shaft};
-    of.torque = {torque, torque * mesh.gears[1].teeth / mesh.gears[0].teeth};
-    of.force = mesh_loads(shafts_, mesh, torque)[1].force;
-    of.normal_force = of.force.norm();
-    of.first_flank = torque >= 0.0 ? WorkingFlank::Right : WorkingFlank::Left;
-  }
+  add_meshes(pinion_torque, axial_offset, state);
   find_drivers(state);
   if (system_) {
     add_bearings(pinion_torque, axial_offset, state);
@@ -310,6 +330,7 @@ UnitState ShaftPair::state(double pinion_torque, double axial_offset) const {
       const double all = motion(m, at, force, axial_offset).misalignment;
       ShaftPair alone = *this;
       alone.outside_.clear();
+      alone.constant_.clear();
       alone.prestrain_.resize(0);
       state.mesh_misalignment += all;
       state.outside_misalignment += all - alone.motion(m, at, force, axial_offset).misalignment;

@@ -82,6 +82,9 @@ class Checking : Findings {
       require(mesh.gears[0].shaft != mesh.gears[1].shaft, table + "shaft_2", mesh.gears[1].shaft, "another shaft than shaft_1");
       require(mesh.normal_module > 0.0, table + "normal_module", mesh.normal_module, "above 0 mm");
       require(!std::isnan(mesh.angle), table + "angle", mesh.angle, "a number");
+      require(std::isnan(mesh.stiffness) || mesh.stiffness > 0.0, table + "stiffness", mesh.stiffness, "above 0");
+      require(!mesh.resists_tilting() || mesh.face_width() > 0.0, table + "stiffness", mesh.stiffness,
+              "none without face_width_1 and face_width_2, along which the teeth hold the shafts against tilting");
       if (!empty()) return;
       const MeshGeometry of = geometry_of(mesh);
       const double least = of.base_radius[0] + of.base_radius[1];
@@ -131,8 +134,12 @@ class Checking : Findings {
   void check_loads() {
     bool given = false;
     for (std::size_t i = 0; i < unit_.loads.size(); ++i) {
-      check_place("unit.loads." + std::to_string(i) + ".", "shaft", unit_.loads[i].shaft, "position", unit_.loads[i].position, 0.0);
-      given = true;
+      const UnitLoad& load = unit_.loads[i];
+      const std::string table = "unit.loads." + std::to_string(i) + ".";
+      check_place(table, "shaft", load.shaft, "position", load.position, 0.0);
+      require(!load.constant || load.moment.z() == 0.0, table + "torque", load.moment.z() / units::newton_metre,
+              "0 with constant = \"yes\": torques are in proportion to the load, or they do not balance");
+      given = given || !load.constant;
     }
     for (const UnitMesh& mesh : unit_.meshes) given = given || !std::isnan(mesh.torque);
     require(!given || unit_.reference_torque > 0.0, "unit.reference_torque", unit_.reference_torque,
@@ -154,7 +161,7 @@ class Checking : Findings {
       require(places.emplace(joint.outer_shaft, joint.outer_position).second, table + "outer_position", joint.outer_position,
               "a position of its own");
       require(joint.bearing.radial_stiffness > 0.0, table + "radial_stiffness", joint.bearing.radial_stiffness, "above 0");
-      for (const InvalidInput& problem : find_law_problems(joint.bearing))
+      for (const InvalidInput& problem : find_yielding_problems(joint.bearing))
         require(false, table + problem.field(), problem.value(), problem.allowed());
     }
   }
@@ -204,7 +211,7 @@ class Checking : Findings {
   void check_torques() {
     if (unit_.empty()) return;
     ShaftsOfPair analysed = shafts_;
-    if (pair_.data.working_flank == WorkingFlank::Left) analysed.unit = mirrored(analysed.unit);
+    if (pair_.data.working_flank == WorkingFlank::Left) analysed = mirrored(std::move(analysed));
     const UnitTorques torques = torque_balance(analysed, pair_);
     require(torques.determined, "unit.meshes", "torques that the balance leaves open",
             "torque_1 of a mesh, or a torque among the loads, wherever a shaft shares its torque between several gears and couplings");

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <set>
 
@@ -67,7 +68,36 @@ std::vector<Eigen::Vector2d> axes_of(const ShaftsOfPair& shafts, const GearPair&
   return axes;
 }
 
-UnitData mirrored(UnitData unit) {
+ShaftsOfPair with_torques_reversed(ShaftsOfPair shafts) {
+  for (UnitMesh& mesh : shafts.unit.meshes) mesh.torque = -mesh.torque;
+  for (UnitLoad& load : shafts.unit.loads) {
+    assert(load.keeps_direction());
+    if (!load.constant) load.moment.z() = -load.moment.z();
+  }
+  return shafts;
+}
+
+namespace {
+
+/// In the mirror forces along y and turns about x, which is axial, change their sign.
+void mirror(ShaftBearing& bearing) {
+  constexpr std::array<Eigen::Index, 2> turned{1, 3};
+  if (!bearing.has_matrix()) return;
+  for (const Eigen::Index i : turned) {
+    bearing.stiffness_matrix.row(i) *= -1.0;
+    bearing.stiffness_matrix.col(i) *= -1.0;
+  }
+}
+
+}  // namespace
+
+ShaftsOfPair mirrored(ShaftsOfPair shafts) {
+  UnitData& unit = shafts.unit;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (shafts.shaft[m]) std::ranges::for_each(shafts.shaft[m]->bearings, mirror);
+  }
+  for (ShaftData& shaft : unit.shafts) std::ranges::for_each(shaft.bearings, mirror);
+  for (ShaftJoint& joint : unit.joints) mirror(joint.bearing);
   for (UnitMesh& mesh : unit.meshes) {
     mesh.angle = -mesh.angle;
     mesh.hand = mesh.hand == Hand::Right ? Hand::Left : Hand::Right;
@@ -82,7 +112,7 @@ UnitData mirrored(UnitData unit) {
     unit.housing.stiffness.row(i) *= -1.0;
     unit.housing.stiffness.col(i) *= -1.0;
   }
-  return unit;
+  return shafts;
 }
 
 }  // namespace flankwright

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -22,7 +23,8 @@ struct UnitGear {
   double face_width{0.0};      ///< over which the shaft is as thick as the gear's root (bending: mean of tip and root) [mm], >= 0; 0: nowhere
 };
 
-/// A mesh beside the pair under study, which loads its shafts with mean forces. External involute gears on parallel axes.
+/// A mesh beside the pair under study, which loads its shafts with mean forces and, with a stiffness, holds both shafts against tilting towards each
+/// other. External involute gears on parallel axes.
 struct UnitMesh {
   std::string name;
   std::array<UnitGear, 2> gears;
@@ -35,6 +37,12 @@ struct UnitMesh {
   double angle{not_given};
   /// Torque on the first gear by its shaft, about z, at the unit's reference torque [N mm]; not given: what the balance of the shafts leaves.
   double torque{not_given};
+  /// Per face width, c_gamma of ISO 6336-1, along the transverse base tangent [N/mm^2], > 0; not given: the force stays at mid face whatever tilts.
+  double stiffness{not_given};
+
+  /// Of the face that both gears have in common, mid face by mid face [mm].
+  double face_width() const { return std::min(gears[0].face_width, gears[1].face_width); }
+  bool resists_tilting() const { return stiffness > 0.0; }
 };
 
 /// What follows from a mesh's data [ISO 21771].
@@ -46,12 +54,16 @@ struct MeshGeometry {
 /// @pre the mesh has no problem that find_problems() names
 MeshGeometry geometry_of(const UnitMesh& mesh);
 
-/// A force and a moment from outside on a shaft, at the unit's reference torque.
+/// A force and a moment from outside on a shaft, at the unit's reference torque and in proportion to the torque, or whatever the torque is.
 struct UnitLoad {
   std::string shaft;
   double position{not_given};                       ///< [mm]
   Eigen::Vector3d force{Eigen::Vector3d::Zero()};   ///< [N], axes of the pair
   Eigen::Vector3d moment{Eigen::Vector3d::Zero()};  ///< [N mm]; z is torque
+  bool constant{false};                             ///< the same at every torque, as a weight or the pull of a belt; it has no torque then
+
+  /// It would not turn round with the torque: a force, or a moment across the shaft, in proportion to it.
+  bool keeps_direction() const { return constant || (force.isZero(0.0) && moment.head<2>().isZero(0.0)); }
 };
 
 /// A bearing between two shafts on one axis.
@@ -75,7 +87,8 @@ struct UnitData {
   std::vector<UnitLoad> loads;
   std::vector<ShaftJoint> joints;
   Housing housing;
-  double reference_torque{not_given};  ///< on the pinion, at which loads and given torques are meant [N mm], > 0; all scale with the torque
+  double reference_torque{
+      not_given};  ///< on the pinion, at which loads and given torques are meant [N mm], > 0; all scale with the torque but constant ones
 
   bool empty() const { return shafts.empty() && meshes.empty() && loads.empty() && joints.empty() && housing.seats.empty(); }
 };
@@ -101,7 +114,11 @@ struct ShaftsOfPair {
 /// Where the shafts' axes are, x and y from that of the pinion [mm], by the meshes and joints between them; NaN of those that nothing joins.
 std::vector<Eigen::Vector2d> axes_of(const ShaftsOfPair& shafts, const GearPair& pair);
 
-/// The same unit seen in a mirror, the plane y = 0: as a pair that works on its left flanks is analysed.
-UnitData mirrored(UnitData unit);
+/// The same with all torques the other way round: what the other flanks of the pair carry.
+/// @pre all loads keep their direction or are torques, see UnitLoad::keeps_direction()
+ShaftsOfPair with_torques_reversed(ShaftsOfPair shafts);
+
+/// The same shafts and unit seen in a mirror, the plane y = 0: as a pair that works on its left flanks is analysed.
+ShaftsOfPair mirrored(ShaftsOfPair shafts);
 
 }  // namespace flankwright

@@ -29,7 +29,9 @@ UnitTorques torque_balance(const ShaftsOfPair& shafts, const GearPair& pair) {
   Eigen::VectorXd known = Eigen::VectorXd::Zero(std::ssize(all));
   if (const auto on = shafts.find(Member::Pinion)) known[*on] -= 1.0;
   if (const auto on = shafts.find(Member::Wheel)) known[*on] -= pair.gear_ratio();
-  for (const UnitLoad& load : unit.loads) known[*shafts.find(load.shaft)] += load.moment.z() / unit.reference_torque;
+  for (const UnitLoad& load : unit.loads) {
+    if (!load.constant) known[*shafts.find(load.shaft)] += load.moment.z() / unit.reference_torque;
+  }
   std::vector<Eigen::VectorXd> columns;
   std::vector<double*> unknowns;
   for (std::size_t m = 0; m < unit.meshes.size(); ++m) {
@@ -72,15 +74,25 @@ UnitTorques torque_balance(const ShaftsOfPair& shafts, const GearPair& pair) {
   return torques;
 }
 
+Eigen::Vector3d transverse_normal(const UnitMesh& mesh, double torque) {
+  const double alpha = geometry_of(mesh).working_pressure_angle, right = torque >= 0.0 ? 1.0 : -1.0;
+  const Eigen::Vector3d across(std::cos(mesh.angle), std::sin(mesh.angle), 0.0), along(-std::sin(mesh.angle), std::cos(mesh.angle), 0.0);
+  return std::sin(alpha) * across + right * std::cos(alpha) * along;
+}
+
+std::array<BeamLoad, 2> mesh_tilt(const ShaftsOfPair& shafts, const UnitMesh& mesh, double torque) {
+  const Eigen::Vector3d none = Eigen::Vector3d::Zero(), opens = Eigen::Vector3d::UnitZ().cross(transverse_normal(mesh, torque));
+  return {BeamLoad{mesh.gears[0].position, none, -opens, *shafts.find(mesh.gears[0].shaft)},
+          BeamLoad{mesh.gears[1].position, none, opens, *shafts.find(mesh.gears[1].shaft)}};
+}
+
 std::vector<BeamLoad> mesh_loads(const ShaftsOfPair& shafts, const UnitMesh& mesh, double torque) {
   using Eigen::Vector3d;
   const MeshGeometry of = geometry_of(mesh);
-  const double alpha = of.working_pressure_angle, beta = of.base_helix_angle;
-  const double right = torque >= 0.0 ? 1.0 : -1.0, hand = mesh.hand == Hand::Right ? 1.0 : -1.0;
-  const Vector3d across(std::cos(mesh.angle), std::sin(mesh.angle), 0.0), along(-std::sin(mesh.angle), std::cos(mesh.angle), 0.0);
-  // The outward normal of the first gear's working flank: along it the second gear is pushed, as in ShaftPair.
-  const Vector3d normal =
-      std::cos(beta) * (std::sin(alpha) * across + right * std::cos(alpha) * along) - right * hand * std::sin(beta) * Vector3d::UnitZ();
+  const double beta = of.base_helix_angle, right = torque >= 0.0 ? 1.0 : -1.0, hand = mesh.hand == Hand::Right ? 1.0 : -1.0;
+  const Vector3d across(std::cos(mesh.angle), std::sin(mesh.angle), 0.0);
+  // As the pair's own force in ShaftPair.
+  const Vector3d normal = std::cos(beta) * transverse_normal(mesh, torque) - right * hand * std::sin(beta) * Vector3d::UnitZ();
   const Vector3d force = std::abs(torque) / (of.base_radius[0] * std::cos(beta)) * normal;
   const Vector3d first_arm = of.working_radius[0] * across, second_arm = -of.working_radius[1] * across;
   return {{mesh.gears[0].position, -force, first_arm.cross(-force), *shafts.find(mesh.gears[0].shaft)},
@@ -94,7 +106,16 @@ std::vector<BeamLoad> outside_loads(const ShaftsOfPair& shafts, const UnitTorque
     for (const BeamLoad& load : mesh_loads(shafts, unit.meshes[m], torques.mesh[m])) loads.push_back(load);
   }
   for (const UnitLoad& load : unit.loads) {
+    if (load.constant) continue;
     loads.push_back(BeamLoad{load.position, load.force, load.moment, *shafts.find(load.shaft)}.times(1.0 / unit.reference_torque));
+  }
+  return loads;
+}
+
+std::vector<BeamLoad> constant_loads(const ShaftsOfPair& shafts) {
+  std::vector<BeamLoad> loads;
+  for (const UnitLoad& load : shafts.unit.loads) {
+    if (load.constant) loads.push_back({load.position, load.force, load.moment, *shafts.find(load.shaft)});
   }
   return loads;
 }
@@ -106,7 +127,7 @@ bool is_on_pair_gear(const ShaftsOfPair& shafts, const GearPair& pair, Member me
 }
 
 int meshes_per_revolution(ShaftsOfPair shafts, const GearPair& pair, Member member) {
-  if (pair.data.working_flank == WorkingFlank::Left) shafts.unit = mirrored(std::move(shafts.unit));
+  if (pair.data.working_flank == WorkingFlank::Left) shafts = mirrored(std::move(shafts));
   const UnitTorques torques = torque_balance(shafts, pair);
   int meshes = 1;
   for (std::size_t m = 0; m < shafts.unit.meshes.size(); ++m) {

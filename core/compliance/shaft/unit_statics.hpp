@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/compliance/shaft/beam_system.hpp"
@@ -28,8 +29,18 @@ UnitTorques torque_balance(const ShaftsOfPair& shafts, const GearPair& pair);
 /// @param torque  on the first gear by its shaft [N mm]
 std::vector<BeamLoad> mesh_loads(const ShaftsOfPair& shafts, const UnitMesh& mesh, double torque);
 
-/// All that acts on the shafts beside the pair's own mesh, per torque on the pinion [N and N mm per N mm].
+/// Direction along which a mesh pushes its second gear, in the transverse plane: the outward normal of the first gear's working flank.
+/// @param torque  on the first gear by its shaft; its sign says which flank
+Eigen::Vector3d transverse_normal(const UnitMesh& mesh, double torque);
+
+/// A moment on each gear of a mesh that does work on the tilt of the second one against the first in the base tangent plane, + opens the mesh at +z.
+std::array<BeamLoad, 2> mesh_tilt(const ShaftsOfPair& shafts, const UnitMesh& mesh, double torque);
+
+/// All that acts on the shafts beside the pair's own mesh in proportion to its torque, per torque on the pinion [N and N mm per N mm].
 std::vector<BeamLoad> outside_loads(const ShaftsOfPair& shafts, const UnitTorques& torques);
+
+/// All that acts on them whatever the torque is [N and N mm].
+std::vector<BeamLoad> constant_loads(const ShaftsOfPair& shafts);
 
 /// How many meshes load the teeth of one of the pair's gears on the flank that the pair loads in a revolution of it: that of the pair, and the unit's on the same gear
 /// whose torque is of the same sign. An idler's second mesh loads the other flank.

@@ -65,13 +65,12 @@ class Import {
     const auto unit = read_unit(reading_, parts_, geometry, cases_.torques());
     if (unit) {
       write_unit(*unit, body);
-      one_sided = "a gear unit";
+      if (!std::ranges::all_of(unit->shafts.unit.loads, &UnitLoad::keeps_direction)) one_sided = "a gear unit with forces that scale with the torque";
     } else {
       for (const Member m : {Member::Pinion, Member::Wheel}) {
         const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width);
         if (!shaft) continue;
         write_shaft(*shaft, m, body);
-        one_sided = "a shaft";
       }
     }
     cases_.write(one_sided, unit ? unit->misalignment : std::map<const LoadCase*, double>(), body);

@@ -332,24 +332,31 @@ void read_other_cases(Reading& reading, const StageParts& parts, const GearPair&
     const PerGear<GearBodyIn> bodies{GearBodyIn::Structure, GearBodyIn::Structure};
     return ShaftPair(pair, completed(shafts), bodies).state(torque).mesh_misalignment;
   };
+  std::vector<std::pair<const ImportedTorque*, ImportedUnit>> others;
   for (const ImportedTorque& torque : torques) {
-    if (torque.load_case == reference.load_case || !(torque.torque > 0.0) || torque.flank != reference.flank) continue;
+    if (torque.load_case == reference.load_case || !(torque.torque > 0.0)) continue;
     try {
-      const ImportedUnit other = UnitReading(reading, parts, pair, torque).read();
-      if (are_scaled(other.shafts.unit, unit.shafts.unit)) continue;
-      const double added = misalignment_of(other.shafts, torque.torque) - misalignment_of(unit.shafts, torque.torque);
-      constexpr double negligible = 0.01 * units::um;
-      const bool counts = std::abs(added) > negligible;
-      if (counts) unit.misalignment[torque.load_case] = added;
-      reading.warn(
-          fmt::format("{}: its loads from outside are not those of {} scaled with the torque, as a study has them; {}, bearing forces and "
-                      "bending within the face are not taken",
-                      torque.name, reference.name,
-                      counts ? fmt::format("the {:.3g} um of misalignment by the difference are taken", added / units::um)
-                             : "the misalignment by the difference is below 0.01 um"));
+      others.emplace_back(&torque, UnitReading(reading, parts, pair, torque).read());
     } catch (const LeftOut& left_out) {
+      if (torque.flank != reference.flank) continue;  // the other way round the unit is not that of the pair's flank
       reading.warn(fmt::format("{}: its loads from outside are not taken but those of {}, {}", torque.name, reference.name, left_out.why));
     }
+  }
+  std::vector<UnitData> conditions;
+  for (const auto& [torque, other] : others) conditions.push_back(other.shafts.unit);
+  mark_constant_loads(unit.shafts.unit, conditions);
+  for (const auto& [torque, other] : others) {
+    if (torque->flank != reference.flank || are_scaled(other.shafts.unit, unit.shafts.unit)) continue;
+    const double added = misalignment_of(other.shafts, torque->torque) - misalignment_of(unit.shafts, torque->torque);
+    constexpr double negligible = 0.01 * units::um;
+    const bool counts = std::abs(added) > negligible;
+    if (counts) unit.misalignment[torque->load_case] = added;
+    reading.warn(
+        fmt::format("{}: its loads from outside are not those of {} scaled with the torque, as a study has them; {}, bearing forces and "
+                    "bending within the face are not taken",
+                    torque->name, reference.name,
+                    counts ? fmt::format("the {:.3g} um of misalignment by the difference are taken", added / units::um)
+                           : "the misalignment by the difference is below 0.01 um"));
   }
 }
 

@@ -67,6 +67,7 @@ void write_unit(const ImportedUnit& imported, StudyText& text) {
     for (Eigen::Index k = 0; k < 2; ++k) {
       if (load.moment[k] != 0.0) text.key(std::string("moment_") + axes[k], number_text(load.moment[k] / units::newton_metre));
     }
+    if (load.constant) text.key("constant", quoted("yes"));
   }
   for (std::size_t i = 0; i < unit.joints.size(); ++i) {
     const ShaftJoint& joint = unit.joints[i];

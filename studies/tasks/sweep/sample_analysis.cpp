@@ -115,7 +115,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   const MeshAt mesh_at = own ? made_at : memory_.remembering(made_at);
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
   loaded.summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
-  const double by_shafts = nominal_.shafts ? shaft_misalignment(nominal_.shafts->at_torque(torque), *model, cycle) : 0.0;
+  const double by_shafts = nominal_.shafts ? shaft_misalignment(shafts_under(*nominal_.shafts, *model, torque), *model, cycle) : 0.0;
   const IsoDeviations deviations = iso_deviations(model->pair, condition, by_shafts);
   loaded.iso = iso_load_factors(model->pair, model->iso, deviations, torque, model->face_width);
   std::vector<double> values;

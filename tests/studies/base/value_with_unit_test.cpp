@@ -36,6 +36,7 @@ TEST_CASE("A text with a unit gives the same quantity as its definition", "[stud
       Row{"1.6 in", Quantity::Length, 40.64},
       Row{" 2 m ", Quantity::Length, 2000.0},
       Row{"1 mil", Quantity::Deviation, 0.0254},
+      Row{"20 N/(mm um)", Quantity::MeshStiffness, 20000.0},
       Row{"5 1/in", Quantity::DiametralPitch, 5.0 / 25.4},
       Row{"2 N·m", Quantity::Torque, 2000.0},
       Row{"2 Nm", Quantity::Torque, 2000.0},

@@ -9,51 +9,12 @@
 #include "studies/results/results_json.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
 
 namespace flankwright::studies {
 namespace {
 
-const std::string unit_pair = R"([pair]
-normal_module = 4
-helix_angle = 15
-working_flank = "left"
-[pinion]
-teeth = 21
-face_width = 40
-hand = "left"
-[wheel]
-teeth = 40
-face_width = 40
-[load]
-torque = 300
-[cycle]
-positions = 4
-[fidelity]
-compliance = "thin_slice"
-quadrature = { rule = "graded", intervals = 12 }
-[pinion.shaft]
-sections = [{ length = 180, outer_diameter = 50 }]
-bearings = [{ position = 10, radial_stiffness = 800 }, { position = 170, radial_stiffness = 400 }]
-gear_position = 130
-)";
-
-const std::string unit_text = R"([[unit.shafts]]
-name = "input"
-sections = [{ length = 100, outer_diameter = 40 }, { length = 60, outer_diameter = 45 }]
-bearings = [{ position = 20 }, { position = 150 }]
-torque_position = 0
-[[unit.meshes]]
-name = "first"
-shaft_1 = "input"
-position_1 = 60
-teeth_1 = 20
-shaft_2 = "pinion"
-position_2 = 50
-teeth_2 = 50
-normal_module = 3
-helix_angle = 20
-angle = 70
-)";
+const std::string unit_pair = small::unit_pair(), unit_text = small::unit();
 
 Study read_unit_study(const std::string& text, const std::vector<Override>& overrides = {}) { return parse_study(text, "unit.toml", overrides); }
 

@@ -1,6 +1,7 @@
 #include "core/compliance/model/gear_structures.hpp"
 
 #include <catch2/catch.hpp>
+#include <limits>
 
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/gear/pair_cases.hpp"
@@ -65,6 +66,38 @@ TEST_CASE("A pair's compliance is built without a store, and the same with one",
   CHECK((*found.finite_elements)[Member::Wheel].from_cache);
   CHECK((*found.finite_elements)[Member::Wheel].file == "memory");
   for (const GearStructures* built : {&made, &found}) CHECK(deflection(*built, Member::Wheel) == deflection(alone, Member::Wheel));
+}
+
+TEST_CASE("On the other flanks a gear whose ends differ is solved as it stands there", "[compliance][fe][other-flank]") {
+  // A helical pair whose pinion's torque leaves at one end, on a shaft: the other flanks' acute end is the other one.
+  PairData data = pair_cases::pair_data(12, 12, 20, 4, 6);
+  data.pinion.profile_shift = data.wheel.profile_shift = 0.3;
+  ShaftData shaft;
+  shaft.sections = {{40, 12}};
+  shaft.bearings = {{.position = 2, .axial_stiffness = std::numeric_limits<double>::infinity()}, {.position = 38}};
+  shaft.gear_position = 20;
+  shaft.torque_position = 0;
+  ComplianceTask task{.pair = make_gear_pair(data), .model = ComplianceModel::Fe, .root_stress = true, .other_flanks = true};
+  CHECK_FALSE(task_of_other_flanks(task));  // solid, and held alike at both ends
+  task.shaft.pinion = shaft;
+  REQUIRE(task_of_other_flanks(task));
+  const GearStructures both = build_compliance(task);
+  REQUIRE(both.other_flanks);
+  data.working_flank = WorkingFlank::Left;
+  const GearStructures alone =
+      build_compliance({.pair = make_gear_pair(data), .model = ComplianceModel::Fe, .shaft = task.shaft, .root_stress = true});
+  const GearPair left = make_gear_pair(data);
+  const std::vector<ContactPoint> points = contact_points(left, PathOfContact(left), {QuadratureRule::Gauss2, 3}, 0.7, false, -3, 3);
+  const Eigen::MatrixXd there = both.pair->on_other_flanks()->influence(points, 0.0), here = alone.pair->influence(points, 0.0);
+  CHECK((there - here).cwiseAbs().maxCoeff() <= 1e-12 * here.cwiseAbs().maxCoeff());  // round-off
+  const auto stress = [&](const PairRootStress& model) { return model.influence(points, 0.0).components_of(0).rowwise().sum().norm(); };
+  CHECK(stress(*both.root_stress->on_other_flanks()) == Approx(stress(*alone.root_stress)).epsilon(1e-12));
+  // Turned over without it the torque would leave at the other end.
+  const Eigen::MatrixXd turned = StructuralPair(task.pair, dynamic_cast<const StructuralPair&>(*both.pair)[Member::Pinion],
+                                                dynamic_cast<const StructuralPair&>(*both.pair)[Member::Wheel])
+                                     .on_other_flanks()
+                                     ->influence(points, 0.0);
+  CHECK((turned - here).cwiseAbs().maxCoeff() > 1e-4 * here.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("Data that no compliance can be built from are refused under the names of the gears", "[compliance][fe]") {

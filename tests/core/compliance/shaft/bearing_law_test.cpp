@@ -130,6 +130,6 @@ TEST_CASE("Bearings that cannot be are refused by their key", "[core][compliance
   CHECK_THROWS_AS(RadialLaw(data), InvalidInput);
   // Beside a constant stiffness.
   ShaftBearing bearing{.position = 10, .radial_stiffness = 5e5, .law = ball_bearing()};
-  REQUIRE(find_law_problems(bearing).size() == 1);
-  CHECK(find_law_problems(bearing).front().field() == "radial_stiffness");
+  REQUIRE(find_yielding_problems(bearing).size() == 1);
+  CHECK(find_yielding_problems(bearing).front().field() == "radial_stiffness");
 }

@@ -121,15 +121,32 @@ TEST_CASE("A load case of reversed torque is a scene on the other flank", "[stud
   }
 }
 
-TEST_CASE("A reversed case of a unit is left out and named", "[studies][rexs][import][unit]") {
-  TwoStages file({word("transmits_torque", "true")});
-  for (const double newton_metre : {400.0, -150.0, 600.0}) file.train.load_case({{file.load, {torque(newton_metre)}}});
+TEST_CASE("A reversed case of a unit is a scene on the other flank, unless forces would turn round with it", "[studies][rexs][import][unit]") {
+  const auto with_forces = [](std::initializer_list<double> newtons) {
+    TwoStages file({word("transmits_torque", "true")});
+    auto force = newtons.begin();
+    for (const double newton_metre : {400.0, -150.0, 600.0})
+      file.train.load_case({{file.load, {torque(newton_metre), number("force_v_direction", *force++, "N")}}});
+    return file;
+  };
   for (const int stage : {1, 2}) {
-    const rexs::ImportedStudy imported = stage_of_train(file.train, stage);
+    // None, and a weight that is the same in all cases.
+    for (const double weight : {0.0, 500.0}) {
+      const rexs::ImportedStudy imported = stage_of_train(with_forces({weight, weight, weight}).train, stage);
+      CHECK(imported.warnings.empty());
+      const Study study = parse_study(imported.text, "stage.toml");
+      REQUIRE(study.scenes.size() == 3);
+      CHECK(study.scenes[1].working_flank == opposite(study.pair.working_flank));
+      REQUIRE(study.unit.loads.size() == (weight > 0.0 ? 1u : 0u));
+      if (weight > 0.0) CHECK(study.unit.loads[0].constant);
+    }
+    // In proportion to the torque, which would turn them round.
+    const rexs::ImportedStudy imported = stage_of_train(with_forces({400, 150, 600}).train, stage);
     const Study study = parse_study(imported.text, "stage.toml");
-    CHECK_FALSE(study.unit.empty());
     REQUIRE(study.scenes.size() == 2);
     CHECK(study.scenes[1].name == "load case 3");
+    REQUIRE(study.unit.loads.size() == 1);
+    CHECK_FALSE(study.unit.loads[0].constant);
     REQUIRE(imported.warnings.size() == 1);
     CHECK_THAT(imported.warnings.front(), Contains("load case 2: left out") && Contains("a gear unit"));
   }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <iterator>
 
 #include "studies/analysis/run_study.hpp"
 #include "studies/base/json_format.hpp"
@@ -77,19 +78,60 @@ TEST_CASE("Drive and coast are optimised together: what one misaligned flank gai
   CHECK(std::abs(lead_slope(opposed)) < 0.2 * std::abs(lead_slope(drive)));
 }
 
+TEST_CASE("On the other flank a gear unit's forces turn round, but for those that are constant", "[studies][other-flank][unit]") {
+  // The unit's meshes, a motor's torque and the pull of a belt, as a study of the other flank has them: torques the other way round.
+  const std::string scenes = "[[scenes]]\nname = \"drive\"\n[[scenes]]\nname = \"coast\"\n";
+  const auto load = [](const char* torque) {
+    return std::string("[[unit.loads]]\nshaft = \"input\"\nposition = 5\nforce_x = 900\nforce_y = 400\nconstant = \"yes\"\n") +
+           "[[unit.loads]]\nshaft = \"input\"\nposition = 155\ntorque = " + torque + "\n";
+  };
+  const std::string matrix = "[[500e3, 0, 2e4, 0, 1e6], [0, 400e3, 0, -1e6, 0], [2e4, 0, 3e5, 0, 0], [0, -1e6, 0, 2e8, 0], [1e6, 0, 0, 0, 2e8]]";
+  std::string flat;
+  std::ranges::copy_if(matrix, std::back_inserter(flat), [](char c) { return c != '[' && c != ']'; });
+  const std::vector<Override> bearing{{"unit.shafts.0.bearings.0.stiffness_matrix", "[" + flat + "]"},
+                                      {"unit.meshes.0.face_width_1", "30"},
+                                      {"unit.meshes.0.face_width_2", "30"},
+                                      {"unit.meshes.0.stiffness", "20"}};
+  const auto with = [&](const char* torque, const char* path, const char* value) {
+    std::vector<Override> overrides = bearing;
+    overrides.push_back({path, value});
+    return Json::parse(results_json(run(small::unit_pair() + small::unit() + load(torque) + scenes, overrides)));
+  };
+  const Json both = with("20", "scenes.1.working_flank", "right"), alone = with("-20", "pair.working_flank", "right");
+  const Json &there = both.at("loaded").at(1), &here = alone.at("loaded").at(1), &own = both.at("loaded").at(0);
+  const auto number = [](const Json& loaded, const char* at) { return loaded.at(Json::json_pointer(at)).get<double>(); };
+  constexpr double round_off = 1e-8;
+  for (const char* figure :
+       {"/summary/shaft_misalignment_um", "/summary/te_peak_to_peak_um", "/summary/peak_load_N_per_mm", "/unit/mesh_misalignment_um",
+        "/unit/meshes/1/misalignment_um", "/unit/meshes/1/face_load_factor", "/unit/bearings/0/force_N/0", "/unit/bearings/0/force_N/1",
+        "/unit/bearings/2/force_N/0", "/unit/bearings/2/force_N/1", "/unit/bearings/2/moment_Nm/1", "/unit/shafts/1/largest_deflection_um"}) {
+    CAPTURE(figure);
+    CHECK(number(there, figure) == Approx(number(here, figure)).epsilon(round_off));
+  }
+  CHECK(number(there, "/unit/meshes/1/torque_1_Nm") == Approx(-number(own, "/unit/meshes/1/torque_1_Nm")).epsilon(round_off));
+  CHECK(std::abs(number(there, "/unit/mesh_misalignment_um") - number(own, "/unit/mesh_misalignment_um")) > 1.0);
+  // A force that would turn round with the torque is refused.
+  const StudyProblem turns =
+      refused(small::unit_pair() + small::unit() + load("20") + scenes, {{"scenes.1.working_flank", "right"}, {"unit.loads.0.constant", "no"}});
+  CHECK(turns.key == "scenes.1.working_flank");
+  CHECK_THAT(turns.allowed, Catch::Contains("unit.loads.0"));
+}
+
 TEST_CASE("What is known of one flank alone keeps scenes to that flank", "[studies][other-flank]") {
   const std::string text = small::analysis() + "working_flank = \"left\"\n";
-  const StudyProblem webbed = refused(text, {{"pinion.body.rim_thickness", "30"}, {"pinion.body.web_thickness", "30"}});
-  CHECK(webbed.key == "scenes.1.working_flank");
-  CHECK(webbed.value == "\"left\"");
-  CHECK_THAT(webbed.allowed, Catch::Contains("pinion.body with a web"));
-  CHECK_THAT(refused(text, {{"wheel.shaft.sections", "[{ length = 300, outer_diameter = 100 }]"},
-                            {"wheel.shaft.bearings", "[{ position = 20 }, { position = 280 }]"},
-                            {"wheel.shaft.gear_position", "150"}})
-                 .allowed,
-             Catch::Contains("wheel.shaft"));
   CHECK(refused(text, {{"scenes.1.working_flank", "\"front\""}}).key == "scenes.1.working_flank");
   CHECK_NOTHROW(parse_study(text, "small.toml"));
+  CHECK_NOTHROW(parse_study(text, "small.toml", {{"wheel.body.rim_thickness", "40"}, {"wheel.body.web_thickness", "40"}}));
+  // A grid is of the flank that it was measured on.
+  try {
+    parse_study(text, "small.toml", {{"wheel.error.grids", "[\"tooth.csv\"]"}});
+    FAIL("nothing was refused");
+  } catch (const StudyErrors& errors) {
+    const auto on_grid = [](const StudyProblem& p) {
+      return p.key == "scenes.1.working_flank" && p.allowed.find("wheel.error.grids") != std::string::npos;
+    };
+    CHECK(std::ranges::count_if(errors.problems(), on_grid) == 1);
+  }
 }
 
 }  // namespace flankwright::studies
