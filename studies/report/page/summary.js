@@ -131,8 +131,8 @@ function draw_verdict(results, cases) {
   const doubt = Math.max(residual ?? 0, complementarity ?? 0);
   // 1e-4: an optimum's own remainder, Optimality::holds.
   if (optimise.status !== "infeasible" && doubt > 1e-4) {
-    verdict.append(el("p", { class: "banner", id: "doubt" }, `The design shown is no proven optimum: the conditions of one hold to ${fmt(100 * doubt, 2)} % of the objective at the start `
-      + "over the range of a variable, where an optimum has at most 0.01 %."));
+    verdict.append(el("p", { class: "banner", id: "doubt" }, `The design shown is not proven to be an optimum. Its first-order conditions are off by ${fmt(100 * doubt, 2)} %, counted in the objective `
+      + "at the start for the range of a variable; an optimum's are off by 0.01 % at most."));
   }
   if (relaxation.length > 0) {
     verdict.append(el("div", { class: "banner", id: "relaxation" }, el("ul", { class: "statements" }, ...relaxation.map((sentence) => el("li", {}, pretty_unit(sentence))))));

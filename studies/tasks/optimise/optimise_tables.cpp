@@ -109,8 +109,8 @@ std::string doubt_in_words(const DesignResult& design) {
   const double largest = std::max(design.optimality.residual, design.optimality.complementarity);
   if (design.status == SolverStatus::Infeasible || !(largest > Optimality::holds)) return {};
   return fmt::format(
-      "The design shown is no proven optimum: the conditions of one hold to {:.2g} % of the objective at the start over the range of a variable, "
-      "where an optimum has at most {:.2g} %. A better one may lie near: other starts, or more analyses, may find it.\n",
+      "The design shown is not proven to be an optimum. Its first-order conditions are off by {:.2g} %, counted in the objective at the start for the "
+      "range of a variable; an optimum's are off by {:.2g} % at most. Other starts or more analyses may find a better design.\n",
       100.0 * largest, 100.0 * Optimality::holds);
 }
 
