@@ -235,13 +235,18 @@ static_assert(in_order());
 
 }  // namespace
 
-double ObjectiveTerm::outside_factor() const { return design_output(output).per_inside; }
+double ObjectiveTerm::outside_factor() const {
+  const double factor = design_output(output).per_inside;
+  return reciprocal ? 1.0 / factor : factor;
+}
 
 const char* ObjectiveTerm::unit() const { return design_output(output).unit; }
 
 std::span<const DesignOutput> design_outputs() { return rows; }
 
 const DesignOutput& design_output(Output output) { return rows[static_cast<std::size_t>(output)]; }
+
+bool has_reciprocal(const DesignOutput& row) { return row.is_least || (row.smooth != nullptr && !row.has_orders); }
 
 std::string ObjectiveTerm::own_name() const {
   std::string own(design_output(output).name);

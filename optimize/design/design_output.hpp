@@ -14,6 +14,9 @@ namespace flankwright {
 std::span<const DesignOutput> design_outputs();
 const DesignOutput& design_output(Output output);
 
+/// Whether 1 / output is, like an output, the largest of smooth functions, and finite: of the least of several, and of one that is smooth itself and not 0.
+bool has_reciprocal(const DesignOutput& row);
+
 /// The term that a study names, with weight 1; nothing where there is none of that name.
 std::optional<ObjectiveTerm> find_term(std::string_view name);
 /// The names of all terms, those with orders each.

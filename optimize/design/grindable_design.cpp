@@ -33,23 +33,14 @@ struct Box {
 /// The choices between what can be ground, one after the other.
 class GrindableSearch {
  public:
-  GrindableSearch(const DesignProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options)
-      : problem_(problem), task_(problem.task()), options_(options), box_{problem.lower(), problem.upper()}, x_(x) {
-    if (options.finisher != "none") options_.name = options.finisher;
-    options_.finisher = "none";
-    options_.progress = nullptr;
-  }
+  GrindableSearch(const DesignProblem& problem, const Eigen::VectorXd& x, const HeldSearch& search)
+      : problem_(problem), task_(problem.task()), search_(search), box_{problem.lower(), problem.upper()}, x_(x) {}
 
-  void run() {
+  SettledAmounts run() {
     while (const std::optional<Question> question = next_question()) decide(*question);
     settle();
+    return {x_, box_.lower, box_.upper, std::move(choices_)};
   }
-
-  const Box& box() const { return box_; }
-  const Eigen::VectorXd& x() const { return x_; }
-  std::vector<GrindingChoice> take_choices() { return std::move(choices_); }
-  int analyses() const { return analyses_; }
-  int failures() const { return failures_; }
 
  private:
   /// One way, and the box that it leaves.
@@ -159,20 +150,6 @@ class GrindableSearch {
     return question;
   }
 
-  /// The best design with one way, searched from where the design is.
-  LocalRun search(const Box& box) {
-    DesignProblem held = problem_;
-    held.set_box(box.lower, box.upper);
-    held.set_start(x_);
-    SolverOptions options = options_;
-    options.max_evaluations = std::clamp(options_.max_evaluations - analyses_, 1, most_analyses_of_alternative);
-    options.max_seconds = std::max(1e-3, options_.max_seconds - clock_.seconds());
-    LocalRun run = run_local(held, options);
-    analyses_ += run.evaluations;
-    failures_ += run.failures;
-    return run;
-  }
-
   static bool is_better(const GrindingAlternative& one, const GrindingAlternative& than) {
     if (std::isnan(one.objective) || std::isnan(than.objective)) return std::isnan(than.objective) && !std::isnan(one.objective);
     const auto excess = [](const GrindingAlternative& of) { return std::max(0.0, of.constraint_violation - DesignLog::tolerance); };
@@ -184,7 +161,7 @@ class GrindableSearch {
     GrindingChoice choice{question.amounts, {}, 0};
     std::vector<Eigen::VectorXd> designs;
     for (const Way& way : question.ways) {
-      const LocalRun run = search(way.box);
+      const HeldDesign run = search_(way.box.lower, way.box.upper, x_);
       GrindingAlternative tried = way.alternative;
       const GrindingChoice::Amount& held = choice.amounts[tried.amount];
       tried.value = amount(run.x, held.member, held.parameter);
@@ -224,27 +201,62 @@ class GrindableSearch {
 
   const DesignProblem& problem_;
   const DesignTask& task_;
-  SolverOptions options_;
-  const Stopwatch clock_;
+  const HeldSearch& search_;
   Box box_;
   Eigen::VectorXd x_;
   std::vector<GrindingChoice> choices_;
+};
+
+/// Searches of alternatives by the analyses of all scenes, with their books.
+class AlternativeSearch {
+ public:
+  AlternativeSearch(const DesignProblem& problem, const SolverOptions& options) : problem_(problem), options_(options) {
+    if (options.finisher != "none") options_.name = options.finisher;
+    options_.finisher = "none";
+    options_.progress = nullptr;
+  }
+
+  HeldDesign search(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Eigen::VectorXd& start) {
+    DesignProblem held = problem_;
+    held.set_box(lower, upper);
+    held.set_start(start);
+    SolverOptions options = options_;
+    options.max_evaluations = std::clamp(options_.max_evaluations - analyses_, 1, most_analyses_of_alternative);
+    options.max_seconds = std::max(1e-3, options_.max_seconds - clock_.seconds());
+    const LocalRun run = run_local(held, options);
+    analyses_ += run.evaluations;
+    failures_ += run.failures;
+    return {run.x, run.objective, run.constraint_violation};
+  }
+
+  int analyses() const { return analyses_; }
+  int failures() const { return failures_; }
+
+ private:
+  const DesignProblem& problem_;
+  SolverOptions options_;
+  const Stopwatch clock_;
   int analyses_{0}, failures_{0};
 };
 
 }  // namespace
 
+SettledAmounts settle_amounts(const DesignProblem& problem, const Eigen::VectorXd& x, const HeldSearch& search) {
+  return GrindableSearch(problem, x, search).run();
+}
+
 DesignToGrind design_to_grind(DesignProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options) {
   DesignToGrind design{.x = x, .choices = {}};
   const Box whole{problem.lower(), problem.upper()};
   if (problem.task().grindable.any()) {
-    GrindableSearch search(problem, x, options);
-    search.run();
-    design.x = search.x();
-    design.choices = search.take_choices();
-    design.analyses = design.choice_analyses = search.analyses();
-    design.failures = search.failures();
-    problem.set_box(search.box().lower, search.box().upper);
+    AlternativeSearch alternatives(problem, options);
+    SettledAmounts settled =
+        settle_amounts(problem, x, [&](const auto& lower, const auto& upper, const auto& start) { return alternatives.search(lower, upper, start); });
+    design.x = settled.x;
+    design.choices = std::move(settled.choices);
+    design.analyses = design.choice_analyses = alternatives.analyses();
+    design.failures = alternatives.failures();
+    problem.set_box(settled.lower, settled.upper);
   }
   if (has_steps(problem.task())) {
     const int budget = std::clamp(options.max_evaluations - design.analyses, 1, most_rounding_analyses);

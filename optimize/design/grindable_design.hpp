@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "optimize/design/design_problem.hpp"
@@ -48,6 +49,26 @@ struct DesignToGrind {
   int choice_analyses{0};  ///< those of them that choices took
   int failures{0};         ///< analyses that did not converge; survived
 };
+
+/// The best design found in a part of 0 .. 1.
+struct HeldDesign {
+  Eigen::VectorXd x;                       ///< scaled
+  double objective{not_given};             ///< outside units; NaN where no design could be analysed
+  double constraint_violation{not_given};  ///< [-]
+};
+
+/// A search from `start`, which may lie outside, in the part lower <= x <= upper of 0 .. 1.
+using HeldSearch = std::function<HeldDesign(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Eigen::VectorXd& start)>;
+
+/// A design whose amounts can be ground, and the part of 0 .. 1 in which every design keeps to what was decided.
+struct SettledAmounts {
+  Eigen::VectorXd x, lower, upper;  ///< scaled
+  std::vector<GrindingChoice> choices;
+};
+
+/// Decides on amounts below the smallest and on pairs that are not ground together, as design_to_grind() says, by any search.
+/// @throws InvalidInput "optimise.grinding" where the variables' ranges leave no alternative
+SettledAmounts settle_amounts(const DesignProblem& problem, const Eigen::VectorXd& x, const HeldSearch& search);
 
 /// Makes a design grindable, in this order:
 ///

@@ -27,8 +27,8 @@ class LevelMethod {
       : model_(model),
         centre_(centre),
         draws_(draws),
-        low_((centre.array() - radius).max(0.0).matrix() - centre),
-        high_((centre.array() + radius).min(1.0).matrix() - centre),
+        low_((centre.array() - radius).matrix().cwiseMax(model.lower) - centre),
+        high_((centre.array() + radius).matrix().cwiseMin(model.upper) - centre),
         reduces_excess_(model.excess(centre, draws) > DesignLog::tolerance) {}
 
   ModelStep run() {
@@ -167,7 +167,8 @@ std::optional<Eigen::VectorXd> shortest_within(const Eigen::MatrixXd& slopes, co
   return -residual.head(n) / residual[n];
 }
 
-ScatterModel::ScatterModel(const DesignProblem& problem) : objective(problem, problem.task().combined_objective(), problem.task().within_draw) {
+ScatterModel::ScatterModel(const DesignProblem& problem)
+    : objective(problem, problem.task().combined_objective(), problem.task().within_draw), lower(problem.lower()), upper(problem.upper()) {
   const DesignTask& task = problem.task();
   for (const ObjectiveBound& bound : task.objective_bounds) {
     bounded.emplace_back(problem, bound.objective);

@@ -19,6 +19,7 @@ struct ScatterModel {
   std::vector<double> limits;  ///< of them, outside units
   Eigen::MatrixXd slopes;      ///< of the constraints on modifications: slopes x <= most
   Eigen::VectorXd most;
+  Eigen::VectorXd lower, upper;  ///< the part of 0 .. 1 that steps keep to, at first that of the problem
 
   explicit ScatterModel(const DesignProblem& problem);
   /// Largest excess of the statistics over their limits [-]; minus infinity without limits.
@@ -30,7 +31,7 @@ struct ModelStep {
   double gain{0.0};  ///< of what is minimised by the model, relative [-]: the statistic, or the excess over the limits where they are not kept
 };
 
-/// Least statistic of the model in the box of this half width about a design, within the bounds of the variables and with the limits kept as far as the
+/// Least statistic of the model in the box of this half width about a design, within ScatterModel::lower and upper and with the limits kept as far as the
 /// model says so; of several the one nearest to the design. Where the limits are not kept at the design their excess is minimised instead.
 ///
 /// A level method [Lemaréchal, Nemirovskii, Nesterov, New variants of bundle methods, Math. Programming 69 (1995)]: halfway between what is reached and

@@ -45,8 +45,10 @@ struct ObjectiveTerm {
   double weight{1.0};        ///< per unit of the output outside (MPa, um, N/mm), > 0
   std::string name;          ///< as the study names it: "te_harmonic_1"
   double edge_margin{0.05};  ///< of EdgeLoad: share of the common face width and of either gear's active height, 0 .. 0.5
+  /// 1 / output is meant, which is large where the output is too small; only of an output that has_reciprocal().
+  bool reciprocal{false};
 
-  /// Factor from the inside unit to the unit that the weight and every report refer to (MPa, um, N/mm, 1).
+  /// Factor from the inside unit to the unit that the weight and every report refer to (MPa, um, N/mm, 1); of a reciprocal to its reciprocal.
   double outside_factor() const;
   const char* unit() const;
   /// The name of its output: that of its row, with the order of a harmonic.

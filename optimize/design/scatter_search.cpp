@@ -1,19 +1,16 @@
 #include "optimize/design/scatter_search.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/design_log.hpp"
+#include "optimize/design/draw_analyses.hpp"
 #include "optimize/design/model_step.hpp"
 #include "optimize/design/rounding.hpp"
 #include "optimize/design/screening.hpp"
@@ -30,24 +27,31 @@ constexpr double settled = 2.5e-3;
 constexpr double first_radius = 0.2, level_radius = 0.05, largest_radius = 0.5, least_radius = 1e-3;
 constexpr double poor_share = 0.25, good_share = 0.75;  // of the promised gain, see search_over_draws()
 constexpr double safety = 2.0;                          // see judge_all()
-constexpr std::size_t chunk = 64;                       // draws whose cycles are held at the same time
+constexpr std::size_t chunk = 64;                       // draws screened before judge_all() looks whether others can still matter
 constexpr std::size_t most_rounded_designs = 24;
 constexpr int all_draws = std::numeric_limits<int>::max();
 
 class DrawSearch {
  public:
   DrawSearch(const DesignProblem& full, const DesignProblem& screening, const SolverOptions& options, ScatterDesign& books)
-      : full_(full), screening_(screening), options_(options), books_(books), model_(full) {
-    models_.push_back(&model_.objective);
-    for (StatisticModel& bounded : model_.bounded) models_.push_back(&bounded);
-    of_spectrum_ = std::ranges::any_of(models_, [](const StatisticModel* m) { return m->objective().over_spectrum(); });
-    number_units();
-  }
+      : full_(full),
+        screening_(screening),
+        options_(options),
+        books_(books),
+        model_(full),
+        models_(statistics_of(model_)),
+        analyses_(full, {models_.begin(), models_.end()}) {}
 
   int draws() const { return model_.objective.draws(); }
 
   /// Whether the first n draws are the same ones for all statistics.
-  bool can_begin_with_few() const { return !of_spectrum_; }
+  bool can_begin_with_few() const { return !analyses_.of_spectrum(); }
+
+  /// Steps keep to this part of 0 .. 1 from now on.
+  void hold(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    model_.lower = lower;
+    model_.upper = upper;
+  }
 
   /// A design and its figures over some draws.
   struct Judged {
@@ -167,7 +171,7 @@ class DrawSearch {
   std::vector<Guess> others_worst_first(const Eigen::VectorXd& x, int draws) const {
     std::vector<Guess> others;
     for (int draw = 0; draw < models_.front()->draws(draws); ++draw) {
-      if (!last_.units.contains(unit_of(*models_.front(), draw))) others.push_back({draw, 0.0});
+      if (!last_.units.contains(analyses_.unit_of(*models_.front(), draw))) others.push_back({draw, 0.0});
     }
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const std::vector<double> guess = models_[m]->measures(x, draws);
@@ -180,8 +184,8 @@ class DrawSearch {
   /// Screens draws of the objective: contact that reaches an edge there is not foreseen by the gradients of a draw without it.
   /// @returns the largest shortfall of what the model had guessed, relative
   double screen_others(const Eigen::VectorXd& x, const std::vector<int>& others, int draws) {
-    const Analysed analysed = std::exchange(last_, {&screening_, x, {}, {}});
-    analyse(screening_, x, *models_.front(), others, false);
+    const AnalysedDraws analysed = std::exchange(last_, {&screening_, x, {}, {}});
+    analyse(*models_.front(), others, false);
     double shortfall = 0.0;
     for (std::size_t m = 0; m < models_.size(); ++m) {
       const StatisticModel& model = *models_[m];
@@ -199,7 +203,7 @@ class DrawSearch {
   /// A design by the draws that decide there, as far as is known of the others.
   Judged judge(const DesignProblem& problem, const Eigen::VectorXd& x, int draws) {
     Judged judged{x, not_given, 0.0};
-    if (!last_.is_of(problem, x)) last_ = accepted_.is_of(problem, x) ? accepted_ : Analysed{&problem, x, {}, {}};
+    if (!last_.is_of(problem, x)) last_ = accepted_.is_of(problem, x) ? accepted_ : AnalysedDraws{&problem, x, {}, {}};
     bounds_.clear();
     least_deciding_.clear();
     for (std::size_t m = 0; m < models_.size(); ++m) {
@@ -212,7 +216,7 @@ class DrawSearch {
       }
       screen(
           guess, model.first(guess.size()), [&model](const std::vector<double>& measures) { return model.statistic_weights(measures); },
-          [&](const std::vector<int>& some) { return analyse(problem, x, model, some, true); });
+          [&](const std::vector<int>& some) { return analyse(model, some, true); });
       const double value = model.statistic(guess);
       least_deciding_.push_back(least_deciding(guess, model.statistic_weights(guess)));
       if (m == 0) {
@@ -228,16 +232,6 @@ class DrawSearch {
     }
     return judged;
   }
-
-  /// Draws analysed at one design.
-  struct Analysed {
-    const DesignProblem* problem{nullptr};
-    Eigen::VectorXd x;
-    std::map<std::pair<std::size_t, int>, LinearDraw> linear;  ///< by model and draw
-    std::set<int> units;
-
-    bool is_of(const DesignProblem& of, const Eigen::VectorXd& at) const { return problem == &of && x.size() == at.size() && x == at; }
-  };
 
   /// Keeps the analyses of the last judge(): for a design that was accepted instead of all that was known, else beside it.
   void remember(bool accepted) {
@@ -277,60 +271,18 @@ class DrawSearch {
     return true;
   }
 
-  /// Scenes that are analysed together have the same number, that of their first: the load cases of a draw or of a spectrum, else each on its own.
-  void number_units() {
-    std::map<std::pair<bool, int>, int> first;
-    for (int s = 0; s < full_.scenes(); ++s) {
-      const DesignScene& scene = full_.task().scenes[static_cast<std::size_t>(s)];
-      const bool is_drawn = scene.draw >= 0, is_alone = !is_drawn && !(of_spectrum_ && scene.spectrum >= 0);
-      units_.push_back(is_alone ? s : first.try_emplace({is_drawn, is_drawn ? scene.draw : scene.spectrum}, s).first->second);
-    }
+  static std::vector<StatisticModel*> statistics_of(ScatterModel& model) {
+    std::vector<StatisticModel*> all{&model.objective};
+    for (StatisticModel& bounded : model.bounded) all.push_back(&bounded);
+    return all;
   }
-  int unit_of(int scene) const { return units_[static_cast<std::size_t>(scene)]; }
-  int unit_of(const StatisticModel& model, int draw) const { return unit_of(model.first_scene(draw)); }
 
   /// Analyses draws that the last judge() has not analysed yet; measures of all these.
-  std::vector<double> analyse(const DesignProblem& problem, const Eigen::VectorXd& x, const StatisticModel& of, const std::vector<int>& draws,
-                              bool with_derivatives) {
-    std::set<int> units;
-    for (const int draw : draws) units.insert(unit_of(of, draw));
-    std::erase_if(units, [this](int unit) { return last_.units.contains(unit); });
-    std::vector<int> scenes;
-    for (int s = 0; s < problem.scenes(); ++s) {
-      if (units.contains(unit_of(s))) scenes.push_back(s);
-    }
-    for (std::size_t from = 0; from < scenes.size();) {
-      std::size_t to = std::min(from + chunk, scenes.size());
-      while (to < scenes.size() && unit_of(scenes[to]) == unit_of(scenes[to - 1])) ++to;
-      linearise(problem, x, {scenes.begin() + static_cast<std::ptrdiff_t>(from), scenes.begin() + static_cast<std::ptrdiff_t>(to)}, with_derivatives);
-      from = to;
-    }
-    last_.units.merge(units);
-    books_.cycles += std::ssize(scenes);
-    if (&problem != &full_) books_.screening_cycles += std::ssize(scenes);
-    std::vector<double> measures;
-    const auto number = static_cast<std::size_t>(std::ranges::find(models_, &of) - models_.begin());
-    for (const int draw : draws) measures.push_back(of.unseen(of.seen(last_.linear.at({number, draw}), x).value));
-    return measures;
-  }
-
-  void linearise(const DesignProblem& problem, const Eigen::VectorXd& x, const std::vector<int>& scenes, bool with_derivatives) {
-    const DesignAnalysis analysis = problem.analyse_some(x, scenes, with_derivatives);
-    struct Asked {
-      std::size_t model;
-      int draw;
-      LinearDraw linear;
-    };
-    std::vector<Asked> asked;
-    const std::set<int> some(scenes.begin(), scenes.end());
-    for (std::size_t m = 0; m < models_.size(); ++m) {
-      for (int i = 0; i < models_[m]->draws(); ++i) {
-        if (some.contains(models_[m]->first_scene(i))) asked.push_back({m, i, {}});
-      }
-    }
-    tbb::parallel_for(std::size_t{0}, asked.size(),
-                      [&](std::size_t i) { asked[i].linear = models_[asked[i].model]->linear(problem, analysis, asked[i].draw, x); });
-    for (Asked& a : asked) last_.linear[{a.model, a.draw}] = std::move(a.linear);
+  std::vector<double> analyse(const StatisticModel& of, const std::vector<int>& draws, bool with_derivatives) {
+    const std::int64_t cycles = analyses_.add(last_, of, draws, with_derivatives);
+    books_.cycles += cycles;
+    if (last_.problem != &full_) books_.screening_cycles += cycles;
+    return analyses_.measures(last_, of, draws);
   }
 
   const DesignProblem &full_, &screening_;
@@ -339,10 +291,9 @@ class DrawSearch {
   const Stopwatch clock_;
   ScatterModel model_;
   std::vector<StatisticModel*> models_;  ///< the objective's, then those of the bounds
-  bool of_spectrum_{false};
-  std::vector<int> units_;  ///< per scene, see number_units()
+  const DrawAnalyses analyses_;
   double radius_{first_radius};
-  Analysed last_, accepted_;                                ///< of the last judge(), and of the last design accepted
+  AnalysedDraws last_, accepted_;                           ///< of the last judge(), and of the last design accepted
   std::map<std::pair<std::size_t, int>, double> screened_;  ///< measures of the others where a step was to be accepted
   Eigen::VectorXd screened_x_;
   bool all_screened_{false};  ///< at screened_x_ no draw was left out
@@ -367,12 +318,33 @@ DrawSearch::Judged round(DrawSearch& search, const DesignProblem& full, ScatterD
   return search.report_all(full, design.x);
 }
 
+/// Decides on amounts that cannot be ground. Each alternative continues from what is known of the draws, at the resolution of the task.
+DrawSearch::Judged settle(DrawSearch& search, DesignProblem& full, ScatterDesign& design) {
+  const auto go_on = [&](const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Eigen::VectorXd& start) {
+    const Eigen::VectorXd x = start.cwiseMax(lower).cwiseMin(upper);
+    search.hold(lower, upper);
+    try {
+      const DrawSearch::Judged found = search.report(full, search.descend(full, x, search.draws(), full.task().over).x);
+      return HeldDesign{found.x, found.value, std::max(0.0, found.violation)};
+    } catch (const InvalidInput&) {
+      throw;
+    } catch (const std::runtime_error&) {  // the design at which the alternative begins cannot be analysed
+      return HeldDesign{x};
+    }
+  };
+  SettledAmounts to_grind = settle_amounts(full, design.x, go_on);
+  full.set_box(to_grind.lower, to_grind.upper);
+  design.x = std::move(to_grind.x);
+  design.choices = std::move(to_grind.choices);
+  return search.report_all(full, design.x);
+}
+
 }  // namespace
 
 ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double>& start, const SolverOptions& options) {
   const Stopwatch clock;
   ScatterDesign design;
-  const DesignProblem full(task);
+  DesignProblem full(task);
   const std::optional<DesignProblem> coarse = can_be_coarser(task) ? std::optional<DesignProblem>(screening_task(task)) : std::nullopt;
   const DesignProblem& screening = coarse ? *coarse : full;
   DrawSearch search(full, screening, options, design);
@@ -388,10 +360,10 @@ ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double
     design.x = search.descend(screening, design.x, all, task.over).x;
     if (coarse) design.x = search.descend(full, design.x, all, task.over).x;
     DrawSearch::Judged found = search.report(full, design.x);
-    if (has_steps(task)) {
-      design.exact_value = found.value;
-      found = round(search, full, design);
-    }
+    const double exact = found.value;
+    if (task.grindable.any()) found = settle(search, full, design);
+    if (has_steps(task)) found = round(search, full, design);
+    if (has_steps(task) || !design.choices.empty()) design.exact_value = exact;
     design.value = found.value;
     design.violation = found.violation;
     design.measures = search.measures();

@@ -28,9 +28,27 @@ void check_usable(const ObjectiveTerm& term, const LoadedScene& scene) {
   if (!usable) throw std::runtime_error("the load distribution did not converge at every mesh position");
 }
 
+/// Of the output itself, where a term means its reciprocal.
+double own_value(const ObjectiveTerm& term, const LoadedScene& scene) {
+  check_usable(term, scene);
+  const DesignOutput& row = design_output(term.output);
+  if (row.smooth != nullptr) return row.smooth(term, scene.model, scene.cycle, -1).value;
+  if (row.candidates != nullptr) {
+    const auto values = row.candidates(term, scene) | std::views::values;
+    return row.is_least ? std::ranges::min(values) : std::ranges::max(values);
+  }
+  if (row.at_points == nullptr) {
+    const Eigen::VectorXd te = scene.cycle.transmission_error();
+    return te.maxCoeff() - te.minCoeff();
+  }
+  double value = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < std::ssize(scene.cycle.positions); ++i) value = std::max(value, row.at_points(term, scene.model, scene.cycle, i).maxCoeff());
+  return value;
+}
+
 /// Candidates within a relative margin of an output's value, the leading one first.
 std::vector<Ranked> rank(const ObjectiveTerm& term, const LoadedScene& scene, double margin) {
-  const double value = output_value(term, scene);
+  const double value = own_value(term, scene);
   const MeshModel& model = scene.model;
   const LoadedCycle& cycle = scene.cycle;
   const DesignOutput& row = design_output(term.output);
@@ -65,23 +83,17 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const LoadedScene& scene, do
 }  // namespace
 
 double output_value(const ObjectiveTerm& term, const LoadedScene& scene) {
-  check_usable(term, scene);
-  const DesignOutput& row = design_output(term.output);
-  if (row.smooth != nullptr) return row.smooth(term, scene.model, scene.cycle, -1).value;
-  if (row.candidates != nullptr) {
-    const auto values = row.candidates(term, scene) | std::views::values;
-    return row.is_least ? std::ranges::min(values) : std::ranges::max(values);
-  }
-  if (row.at_points == nullptr) {
-    const Eigen::VectorXd te = scene.cycle.transmission_error();
-    return te.maxCoeff() - te.minCoeff();
-  }
-  double value = -std::numeric_limits<double>::infinity();
-  for (int i = 0; i < std::ssize(scene.cycle.positions); ++i) value = std::max(value, row.at_points(term, scene.model, scene.cycle, i).maxCoeff());
-  return value;
+  const double value = own_value(term, scene);
+  return term.reciprocal ? 1.0 / value : value;
 }
 
 ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene, const ResolvedCycle& resolved) {
+  if (term.reciprocal) {
+    ObjectiveTerm own = term;
+    own.reciprocal = false;
+    const ResolvedValue of_own = resolved_value(own, scene, resolved);
+    return {1.0 / of_own.value, of_own.error / (of_own.value * of_own.value)};
+  }
   if (const std::optional<Output>& other = design_output(term.output).rises_with) {
     const ObjectiveTerm peak{.output = *other, .name = {}};
     const double at_positions = output_value(peak, scene), value = output_value(term, scene);
@@ -104,7 +116,8 @@ std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const L
     for (int direction = 0; direction < harmonic_directions; ++direction) leading.push_back({-1, direction});
     return leading;
   }
-  for (const Ranked& r : rank(term, scene, margin)) {
+  // 1/u_j >= (1 - margin) / u where u_j <= (1 + margin / (1 - margin)) u.
+  for (const Ranked& r : rank(term, scene, term.reciprocal ? margin / (1.0 - margin) : margin)) {
     if (leading.size() == most) break;
     leading.push_back(r.candidate);
   }
@@ -113,6 +126,14 @@ std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const L
 
 SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
   check_usable(term, scene);
+  if (term.reciprocal) {
+    ObjectiveTerm own = term;
+    own.reciprocal = false;
+    SmoothValue value = candidate_value(own, candidate, scene);
+    value.gradient /= -value.value * value.value;
+    value.value = 1.0 / value.value;
+    return value;
+  }
   const MeshModel& model = scene.model;
   const LoadedCycle& cycle = scene.cycle;
   const DesignOutput& row = design_output(term.output);

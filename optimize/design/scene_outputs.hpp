@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// Value of an output: the largest of its candidates, or the least where the row says so.
+/// Value of an output: the largest of its candidates, or the least where the row says so; the reciprocal of that where the term means it.
 /// @throws std::runtime_error where the cycle is not usable(): a solver counts it and goes on
 double output_value(const ObjectiveTerm& term, const LoadedScene& scene);
 
@@ -22,7 +22,7 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene
 /// Candidates whose value is at least (1 - margin) of the output's, largest first (equals by position), at most `most`; of an output that is the
 /// least of them those up to (1 + margin), least first.
 /// A harmonic's are its directions, all of them; with margin 0 the amplitude itself.
-/// @param margin  0 keeps the peak only
+/// @param margin  0 keeps the peak only; of a reciprocal < 1
 std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const LoadedScene& scene, double margin, std::size_t most);
 
 /// Value and exact gradient of one candidate; the gradient stays empty where the cycle carries no derivatives. At a harmonic's

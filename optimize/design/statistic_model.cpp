@@ -30,7 +30,7 @@ double model_growth(const Objective& objective) {
 }
 
 std::vector<PeakCandidate> candidates_of(const ObjectiveTerm& term, const LoadedScene& scene) {
-  if (design_output(term.output).is_least) return leading_candidates(term, scene, 0.0, 1);
+  if (design_output(term.output).is_least && !term.reciprocal) return leading_candidates(term, scene, 0.0, 1);
   std::vector<PeakCandidate> candidates = leading_candidates(term, scene, peak_margin, most_peaks);
   if (term.output == Output::TeHarmonic) candidates.push_back(whole_output);
   return candidates;

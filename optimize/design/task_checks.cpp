@@ -58,8 +58,12 @@ void check_objective(const Objective& objective) {
                        "sums over the load spectrum alone, or none of them; a list or a constraint joins both");
   }
   for (const ObjectiveTerm& term : objective.terms) {
-    if (design_output(term.output).is_least)
+    const DesignOutput& row = design_output(term.output);
+    if (row.is_least && !term.reciprocal)
       throw InvalidInput("optimise.objective", term.name, "an output that is better where it is small; bound this one");
+    if (term.reciprocal && !has_reciprocal(row))
+      throw InvalidInput("optimise.constraints", term.name,
+                         "an upper bound: the reciprocal of the largest of several points is not the largest of theirs");
   }
 }
 

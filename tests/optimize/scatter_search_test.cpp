@@ -122,6 +122,114 @@ TEST_CASE("The search over draws finds what a grid of designs finds", "[optimize
   }
 }
 
+TEST_CASE("An amount below the smallest is left out or raised in a search over draws, whichever is better", "[optimize][design][scatter][grinding]") {
+  constexpr int draws = 40;
+  constexpr double settled = 0.01;  // relative: a search ends where a step promises a quarter of a per cent, and both do
+  const std::vector<double> start{10.0 * units::um, 0.0};
+  for (const Aggregation& statistic : {Aggregation{Aggregate::Cvar, 2.0, 0.8}, Aggregation{Aggregate::MeanPlusSigmas, 2.0}}) {
+    CAPTURE(to_string(statistic));
+    DesignTask task = over_draws(statistic, draws);
+    const ScatterDesign free = search_over_draws(task, start, slsqp());
+    const double slope = DesignProblem(task).unscaled(free.x, 1);
+    REQUIRE(std::abs(slope) > 0.5 * units::um);
+    const double smallest = 1.6 * std::abs(slope);
+    task.grindable.smallest = smallest;
+    const ScatterDesign found = search_over_draws(task, start, slsqp());
+    REQUIRE(found.choices.size() == 1);
+    const GrindingChoice& choice = found.choices.front();
+    CHECK(choice.amounts.front().found == Approx(slope).epsilon(1e-12));
+    REQUIRE(choice.tried.size() == 2);
+    // Independent routes: each alternative searched by itself in the range that it leaves.
+    DesignTask without = over_draws(statistic, draws), raised = without;
+    without.variables.pop_back();
+    (slope > 0.0 ? raised.variables[1].lower : raised.variables[1].upper) = std::copysign(smallest, slope);
+    const double of_none = search_over_draws(without, {start[0]}, slsqp()).value, of_more = search_over_draws(raised, start, slsqp()).value;
+    CHECK(choice.tried[0].objective == Approx(of_none).epsilon(settled));
+    CHECK(choice.tried[1].objective == Approx(of_more).epsilon(settled));
+    CHECK(choice.tried[choice.taken].objective <= choice.tried[1 - choice.taken].objective);
+    CHECK(found.value == Approx(choice.tried[choice.taken].objective).epsilon(1e-9));  // loads begin from those of another design
+    CHECK(found.exact_value == free.value);
+    const double kept = std::abs(DesignProblem(task).unscaled(found.x, 1));
+    CHECK((kept < 1e-12 || kept >= smallest * (1.0 - 1e-12)));  // round-off
+  }
+}
+
+TEST_CASE("Rounding over draws keeps what was left out and what was raised", "[optimize][design][scatter][grinding][rounding]") {
+  DesignTask task = over_draws({Aggregate::Quantile, 2.0, 0.9}, 30);
+  for (DesignVariable& v : task.variables) v.step = 2.0 * units::um;
+  task.grindable.smallest = 7.0 * units::um;
+  const ScatterDesign found = search_over_draws(task, {10.0 * units::um, 0.0}, slsqp());
+  REQUIRE(!found.choices.empty());
+  const DesignProblem problem(task);
+  for (int i = 0; i < 2; ++i) {
+    const double value = problem.unscaled(found.x, i), steps = value / (2.0 * units::um);
+    CHECK(std::abs(steps - std::round(steps)) < 1e-9);  // round-off
+    CHECK((std::abs(value) < 1e-12 || std::abs(value) >= task.grindable.smallest));
+  }
+}
+
+TEST_CASE("Of two modifications that are not ground together a search over draws leaves one", "[optimize][design][scatter][grinding]") {
+  DesignTask task = over_draws({Aggregate::Mean}, 30);
+  task.grindable.not_together = {{Member::Pinion, crowning, parameter_of("lead_slope")}};
+  const ScatterDesign found = search_over_draws(task, {10.0 * units::um, 0.0}, slsqp());
+  REQUIRE(found.choices.size() == 1);
+  REQUIRE(found.choices.front().is_of_pair());
+  const Modification& pinion = found.modification.pinion;
+  CHECK(get(pinion, crowning) * get(pinion, parameter_of("lead_slope")) == 0.0);
+  for (const GrindingAlternative& tried : found.choices.front().tried) CHECK(found.value <= tried.objective * (1.0 + 1e-9));  // as above
+}
+
+TEST_CASE("A lower limit on the film holds in as many draws as the quantile says", "[optimize][design][scatter][life]") {
+  constexpr int draws = 40;
+  constexpr double level = 0.9;
+  const std::vector<double> start{0.0, 0.0};
+  const Aggregation statistic{Aggregate::Quantile, 2.0, level};
+  DesignTask task = over_draws(statistic, draws);
+  task.objective = {design_tasks::term(Output::TePeakToPeak)};
+  LifeModel life;
+  life.lubricant = Lubricant{.viscosity_40 = 220.0, .viscosity_100 = 19.0, .temperature = 80.0};
+  life.roughness = 0.5;
+  task.life = std::make_shared<const LifeModel>(life);
+  for (DesignScene& scene : task.scenes) scene.operation = {1e6, 150.0, 3600.0, not_given};
+  const ObjectiveTerm film = design_tasks::term(Output::SpecificFilmThickness);
+  const DesignProblem whole(task);
+  // Independent route: the film of every draw, and how many have less.
+  const auto films_of = [&](const ScatterDesign& design) {
+    const DesignAnalysis analysis = whole.analyse_design(design.modification);
+    std::vector<double> films;
+    for (int s = 0; s < whole.scenes(); ++s) films.push_back(output_value(film, whole.scene(analysis, s)));
+    std::ranges::sort(films);
+    return films;
+  };
+  const auto kept_by = [&](double film_at_least) {
+    DesignTask limited = task;
+    ObjectiveTerm reciprocal = film;
+    reciprocal.reciprocal = true;
+    limited.objective_bounds = {{{{reciprocal}, statistic}, 1.0 / film_at_least}};
+    return search_over_draws(limited, start, slsqp());
+  };
+  constexpr std::size_t beyond = 4;  // of 40 draws the quantile leaves out four
+  const std::vector<double> of_te = films_of(search_over_draws(task, start, slsqp())), of_film = films_of(kept_by(100.0));
+  CAPTURE(of_te[beyond], of_film[beyond]);
+  REQUIRE(of_film[beyond] > 1.02 * of_te[beyond]);  // the transmission error alone would not keep a limit between
+  const double limit = 0.5 * (of_te[beyond] + of_film[beyond]);
+  const ScatterDesign found = kept_by(limit);
+  CHECK(found.status == SolverStatus::Converged);
+  const std::vector<double> films = films_of(found);
+  constexpr double kept = 1e-5;  // relative: DesignLog::tolerance, and loads that begin from those of another design
+  CHECK(films[beyond] >= limit * (1.0 - kept));
+  CHECK(found.bounds.front() == Approx(1.0 / films[beyond]).epsilon(kept));
+}
+
+TEST_CASE("The reciprocal of the largest of several points is refused, since it is not the largest of theirs",
+          "[optimize][design][scatter][errors]") {
+  DesignTask task = over_draws({Aggregate::Mean}, 2);
+  ObjectiveTerm stress = design_tasks::term(Output::PeakContactStress);
+  stress.reciprocal = true;
+  task.objective_bounds = {{{{stress}, Aggregate::Mean}, 1e-3}};
+  CHECK_THROWS_WITH(DesignProblem(task), Catch::Contains("an upper bound"));
+}
+
 TEST_CASE("A design chosen over draws lies on the steps, and no neighbour is better by what draws do not tell apart", "[optimize][design][scatter]") {
   constexpr int draws = 30;
   constexpr double step = 3.0 * units::um;

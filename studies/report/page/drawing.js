@@ -11,10 +11,10 @@ function build_drawing(results, body) {
   }
   const choices = list(record(results.optimise).grinding_choices).map(record);
   if (choices.length > 0) {
-    const unit = pretty_unit(record(results.optimise).objective_unit);
+    const unit = pretty_unit(record(results.optimise).objective_unit), statistic = choices[0].statistic_in_words;
     table(body, {
       title: "What of the optimum could not be ground",
-      columns: [{ label: "Modification" }, { label: "At the optimum" }, { label: "Tried" }, { label: `Gives${unit ? ` [${unit}]` : ""}` }, { label: "Taken" }],
+      columns: [{ label: "Modification" }, { label: "At the optimum" }, { label: "Tried" }, { label: `Gives${statistic ? ` a ${statistic} of` : ""}${unit ? ` [${unit}]` : ""}` }, { label: "Taken" }],
       rows: choices.flatMap((choice) => list(choice.tried).map(record).map((tried, i) => [
         i === 0 ? capital(list(choice.amounts).map((amount) => words(amount.key)).join(" beside ")) : "",
         i === 0 ? list(choice.amounts).map((amount) => `${fmt(amount.found, 3)} ${pretty_unit(amount.unit)}`).join(", ") : "",

@@ -8,14 +8,25 @@ const fresh_statistic = (scatter, design) => list(record(scatter.fresh).designs)
 
 /** Limits of the statistic that the design exceeds, the most exceeded first. */
 function exceeded_over_draws(scatter) {
-  const excess = ({ value, max }) => (value - max) / Math.abs(max || 1);
+  const excess = (limit) => (is_least(limit) ? limit.min - limit.value : limit.value - limit.max) / Math.abs(bound_of(limit) || 1);
   // Slack for the last digit that the results store, not for the solver.
-  return list(scatter.constraints).map(record).filter((limit) => is_number(limit.value) && is_number(limit.max) && excess(limit) > 1e-5).sort((a, b) => excess(b) - excess(a));
+  return list(scatter.constraints).map(record).filter((limit) => is_number(limit.value) && is_number(bound_of(limit)) && excess(limit) > 1e-5).sort((a, b) => excess(b) - excess(a));
 }
 
+const is_least = (limit) => is_number(limit.min), bound_of = (limit) => (is_least(limit) ? limit.min : limit.max);
+/** "at most 0.9" */
+const bound_words = (limit) => `${is_least(limit) ? "at least" : "at most"} ${fmt(bound_of(limit))}`;
+
 /** "the 95 % quantile of peak-to-peak TE over drawn gears to at most 0.9 µm: 3.15 µm" */
-const drawn_limit_words = (scatter, { name, value, max, unit }) =>
-  `the ${scatter.statistic_in_words} of ${words(name)} over drawn gears to at most ${in_unit(fmt(max), pretty_unit(unit))}: ${in_unit(fmt(value, 3), pretty_unit(unit))}`;
+const drawn_limit_words = (scatter, limit) =>
+  `${drawn_statistic(scatter, limit)} of ${words(limit.name)} over drawn gears to ${in_unit(bound_words(limit), pretty_unit(limit.unit))}: ${in_unit(fmt(limit.value, 3), pretty_unit(limit.unit))}`;
+
+/** "the 95 % quantile"; of a lower limit the quantile from below, and any other statistic by the reciprocal. */
+function drawn_statistic(scatter, limit) {
+  if (!is_least(limit)) return `the ${scatter.statistic_in_words}`;
+  const level = /^([\d.]+) % quantile$/.exec(`${scatter.statistic_in_words}`);
+  return level ? `the ${fmt(100 - Number(level[1]), 4)} % quantile` : `the reciprocal of the ${scatter.statistic_in_words} of 1/value`;
+}
 
 /** "95 % quantile of peak contact stress over drawn gears: 4550 → 1590 MPa (−65 %)"; without fresh draws beside the design that was searched without scatter. */
 function scatter_headline(optimise, scatter) {
@@ -38,7 +49,7 @@ function drawn_facts(scatter) {
     ["Without scatter in the search", `${fmt(fresh_statistic(scatter, "without scatter") ?? record(scatter.without_scatter).value, 4)} ${unit}`],
     ["With scatter in the search", `${fmt(after ?? scatter.value, 4)} ${unit}`],
     is_number(predicted.value) ? ["Predicted", `${fmt(predicted.value, 4)}${between} ${unit}`] : null,
-    ...list(scatter.constraints).map(record).map((limit) => [capital(words(limit.name)), `${fmt(limit.value, 3)} ${pretty_unit(limit.unit)}, at most ${fmt(limit.max)}`,
+    ...list(scatter.constraints).map(record).map((limit) => [capital(words(limit.name)), `${in_unit(fmt(limit.value, 3), pretty_unit(limit.unit))}, ${bound_words(limit)}`,
       exceeded.includes(limit) ? "bad" : "good"]),
   ];
 }
@@ -68,10 +79,10 @@ function build_tolerances(results, body) {
   if (limits.length > 0) {
     table(body, {
       title: "Limits over the draws",
-      note: `Each limit holds for the ${scatter.statistic_in_words} over the draws.`,
-      columns: [{ label: "Output" }, { label: capital(`${scatter.statistic_in_words}`) }, { label: "At most" }, { label: "Unit" }, { label: "" }],
-      rows: limits.map(({ name, value, max, unit: of }) => [words(name), value, max, pretty_unit(of),
-        exceeded.includes(name) ? { text: "exceeded", class: "bad" } : { text: "kept", class: "" }]),
+      note: "Each limit holds for a statistic over the draws.",
+      columns: [{ label: "Output" }, { label: "Statistic" }, { label: "Value" }, { label: "Limit" }, { label: "Unit" }, { label: "" }],
+      rows: limits.map((limit) => [words(limit.name), drawn_statistic(scatter, limit), limit.value, bound_words(limit), pretty_unit(limit.unit),
+        exceeded.includes(limit.name) ? { text: "exceeded", class: "bad" } : { text: "kept", class: "" }]),
     });
   }
   table(body, {

@@ -102,7 +102,7 @@ std::string alternative_in_words(const GrindingChoice& choice, const GrindingAlt
   return fmt::format("{} {:.4g} {}", words_of(tried.held), outside(held.parameter, tried.limit), unit(held.parameter));
 }
 
-std::string choice_in_words(const GrindingChoice& choice, const DesignTask& task) {
+std::string choice_in_words(const GrindingChoice& choice, const DesignTask& task, const std::string& statistic) {
   const auto amount = [&](const GrindingChoice::Amount& of) {
     return fmt::format("{}, {:.3g} {}", plain_name(key_of(of.member, of.parameter)), outside(of.parameter, of.found), unit(of.parameter));
   };
@@ -110,7 +110,7 @@ std::string choice_in_words(const GrindingChoice& choice, const DesignTask& task
                                           : fmt::format("{}, is below the smallest amount", amount(choice.amounts[0]));
   // Of a list alternatives are judged by the last objective.
   const Objective judged = task.later_objectives.empty() ? task.combined_objective() : task.later_objectives.back();
-  const std::string name = task.later_objectives.empty() ? "" : plain_name(judged.name()) + " ";
+  const std::string name = !statistic.empty() ? "a " + statistic + " of " : task.later_objectives.empty() ? "" : plain_name(judged.name()) + " ";
   for (std::size_t i = 0; i < choice.tried.size(); ++i) {
     const GrindingAlternative& tried = choice.tried[i];
     const std::string gives =
@@ -136,7 +136,7 @@ void read_grinding_choices(StudyReading& reading) {
   check_smallest(reading);
 }
 
-Json grinding_choices_json(const DesignResult& design, const DesignTask& task) {
+Json grinding_choices_json(const DesignResult& design, const DesignTask& task, const std::string& statistic) {
   return list(design.choices, [&](const GrindingChoice& choice) -> Json {
     Json amounts = list(choice.amounts, [](const GrindingChoice::Amount& of) -> Json {
       return {{"key", key_of(of.member, of.parameter)}, {"found", outside(of.parameter, of.found)}, {"unit", unit(of.parameter)}};
@@ -153,16 +153,18 @@ Json grinding_choices_json(const DesignResult& design, const DesignTask& task) {
                        {"constraint_violation", of.constraint_violation},
                        {"taken", i == choice.taken}});
     }
-    return {{"rule", choice.is_of_pair() ? "not_together" : "smallest_amount"},
-            {"amounts", std::move(amounts)},
-            {"tried", std::move(tried)},
-            {"words", choice_in_words(choice, task)}};
+    Json json{{"rule", choice.is_of_pair() ? "not_together" : "smallest_amount"},
+              {"amounts", std::move(amounts)},
+              {"tried", std::move(tried)},
+              {"words", choice_in_words(choice, task, statistic)}};
+    if (!statistic.empty()) json["statistic_in_words"] = statistic;
+    return json;
   });
 }
 
-std::vector<std::string> grinding_choices_in_words(const DesignResult& design, const DesignTask& task) {
+std::vector<std::string> grinding_choices_in_words(const DesignResult& design, const DesignTask& task, const std::string& statistic) {
   std::vector<std::string> sentences;
-  for (const GrindingChoice& choice : design.choices) sentences.push_back(choice_in_words(choice, task));
+  for (const GrindingChoice& choice : design.choices) sentences.push_back(choice_in_words(choice, task, statistic));
   return sentences;
 }
 

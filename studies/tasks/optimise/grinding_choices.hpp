@@ -14,9 +14,10 @@ namespace flankwright::studies {
 void read_grinding_choices(StudyReading& reading);
 
 /// optimise.grinding_choices of results.json: every choice with its amounts, what was tried and what each gave.
-Json grinding_choices_json(const DesignResult& design, const DesignTask& task);
+/// @param statistic  of the objective over draws, by which they were judged: "95 % quantile"; empty: by the listed scenes
+Json grinding_choices_json(const DesignResult& design, const DesignTask& task, const std::string& statistic);
 
 /// A sentence for each choice: "pinion tip relief, 1.2 um, is below the smallest amount: 0 gives 431 MPa, at least 3 um gives 428 MPa (taken)"
-std::vector<std::string> grinding_choices_in_words(const DesignResult& design, const DesignTask& task);
+std::vector<std::string> grinding_choices_in_words(const DesignResult& design, const DesignTask& task, const std::string& statistic);
 
 }  // namespace flankwright::studies

@@ -98,6 +98,7 @@ class OptimiseRun {
     if (!scatter.classes.empty()) add("tolerance_classes", "the right design of each class", scatter.classes_seconds);
     results_.design->after = report_design(problem, problem.analyse_design(scatter.design.modification));
     results_.design->exact.reset();  // of the search over the listed scenes
+    results_.design->choices = scatter.design.choices;
     results_.scatter = std::make_shared<const ScatterResult>(std::move(scatter));
   }
 

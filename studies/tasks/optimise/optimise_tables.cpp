@@ -171,7 +171,7 @@ std::string optimise_summary(const StudyResults& results) {
   out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
   out += doubt_in_words(design);
-  for (const std::string& sentence : grinding_choices_in_words(design, task)) out += sentence + "\n";
+  for (const std::string& sentence : grinding_choices_in_words(design, task, statistic_of_choices(results))) out += sentence + "\n";
   if (design.exact) out += loss_in_words(design, task) + excess_of_exact_in_words(design, task);
   if (results.search_work) {
     const SearchWork& work = *results.search_work;

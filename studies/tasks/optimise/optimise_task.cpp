@@ -58,7 +58,8 @@ void add_optimise_json(const StudyResults& results, Json& json) {
   json["optimise"] = optimise_json(results);
   const bool has_limits = results.study.optimise.largest_amount || results.study.optimise.steepest_relief;
   if (has_limits) json["optimise"]["grinding_limits"] = grinding_limits_json(*results.design_task, results.design->after);
-  if (results.design_task->grindable.any()) json["optimise"]["grinding_choices"] = grinding_choices_json(*results.design, *results.design_task);
+  if (results.design_task->grindable.any())
+    json["optimise"]["grinding_choices"] = grinding_choices_json(*results.design, *results.design_task, statistic_of_choices(results));
   if (results.scatter) json["optimise"]["scatter"] = scatter_json(*results.scatter, *results.design_task, results.study);
   if (results.assessment) add_assessment(*results.assessment, *results.design_task, results.study.optimise.assessment, json["optimise"]);
 }

@@ -13,13 +13,18 @@ namespace flankwright::studies {
 
 namespace {
 
+/// A constraint on an output over draws: its statistic is bounded. For a lower limit this is the statistic of the reciprocal, which is large where the output is too small.
+ObjectiveBound bound_over_draws(const OutputConstraint& bound, const Aggregation& statistic) {
+  ObjectiveTerm output = bound.output;
+  output.reciprocal = bound.is_least();
+  return {{{output}, statistic}, (bound.is_least() ? 1.0 / bound.minimum : bound.maximum) * output.outside_factor()};
+}
+
 /// The task over draws: its objective and its constraints on outputs by the statistic.
 DesignTask over_draws(DesignTask task, std::vector<DesignScene> draws, const Aggregation& statistic) {
   task.scenes = std::move(draws);
   task.over = statistic;
-  for (const OutputConstraint& bound : task.constraints) {
-    task.objective_bounds.push_back({{{bound.output}, statistic}, bound.maximum * bound.output.outside_factor()});
-  }
+  for (const OutputConstraint& bound : task.constraints) task.objective_bounds.push_back(bound_over_draws(bound, statistic));
   task.constraints.clear();
   return task;
 }

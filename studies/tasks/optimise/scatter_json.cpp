@@ -64,6 +64,10 @@ std::string statistic_in_words(const Aggregation& statistic) {
 }
 
 Json scatter_json(const ScatterResult& result, const DesignTask& task, const Study& study) {
+std::string statistic_of_choices(const StudyResults& results) {
+  return results.scatter ? statistic_in_words(results.study.optimise.scatter.statistic) : "";
+}
+
   const ScatterTable& asked = study.optimise.scatter;
   Json json{{"statistic", to_string(asked.statistic)},
             {"statistic_in_words", statistic_in_words(asked.statistic)},
@@ -96,11 +100,12 @@ Json scatter_json(const ScatterResult& result, const DesignTask& task, const Stu
   json["deciding"] = deciding_json(result);
   json["constraints"] = Json::array();
   for (std::size_t c = 0; c < result.design.bounds.size(); ++c) {
-    const ObjectiveTerm& output = task.constraints[c].output;
-    json["constraints"].push_back({{"name", output.name},
-                                   {"unit", output.unit()},
-                                   {"value", result.design.bounds[c]},
-                                   {"max", task.constraints[c].maximum * output.outside_factor()}});
+    const OutputConstraint& bound = task.constraints[c];
+    const double of_draws = result.design.bounds[c];  // of a lower limit it is the statistic of the reciprocal
+    json["constraints"].push_back({{"name", bound.output.name},
+                                   {"unit", bound.output.unit()},
+                                   {"value", bound.is_least() ? 1.0 / of_draws : of_draws},
+                                   {bound.is_least() ? "min" : "max", bound.limit() * bound.output.outside_factor()}});
   }
   if (!result.fresh.empty()) {
     json["fresh"] = {{"draws", asked.fresh},

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/analysis/study_results.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/tasks/optimise/scatter.hpp"
@@ -20,5 +21,7 @@ std::string scatter_summary(const ScatterResult& result, const DesignTask& task,
 
 /// The statistic in words: "95 % quantile", "mean + 2 sigma", "mean of the worst 10 %".
 std::string statistic_in_words(const Aggregation& statistic);
+/// The statistic by which choices of what to grind were judged; empty where they were judged by the listed scenes.
+std::string statistic_of_choices(const StudyResults& results);
 
 }  // namespace flankwright::studies

@@ -35,16 +35,30 @@ void check_statistic(StudyReading& reading) {
   }
 }
 
+/// The statistic of a draw's output is bounded from above. A lower limit bounds that of its reciprocal.
+void check_over_draws(StudyReading& reading, const OutputConstraint& bound) {
+  const DesignOutput& row = design_output(bound.output.output);
+  const std::string key = "optimise.constraints." + bound.output.name;
+  if (bound.is_least() && !(has_reciprocal(row) && bound.minimum > 0.0)) {
+    reading.refuse_key(
+        key,
+        "with optimise.scatter a lower limit bounds the reciprocal of an output in the draws, and this output may be 0 there or has no "
+        "smooth reciprocal: allowed is { max = ... }");
+  }
+  if (!bound.is_least() && row.is_least) {
+    reading.refuse_key(
+        key,
+        "with optimise.scatter the largest value of an output in a draw is bounded, and this output is the least of its values: allowed "
+        "is { min = ... }");
+  }
+}
+
 void check_task(StudyReading& reading) {
   const OptimiseTable& optimise = reading.builder.study.optimise;
   const auto refuse = [&](const std::string& path, const char* allowed) { reading.refuse_key(path, allowed); };
   if (!optimise.later_objectives.empty()) refuse("optimise.objective", "one objective with optimise.scatter, no list");
   if (!optimise.pareto_objectives.empty()) refuse("optimise.pareto.objectives", "none with optimise.scatter");
-  if (optimise.grindable.smallest > 0.0) refuse("optimise.grinding.smallest_amount", "none with optimise.scatter");
-  if (!optimise.grindable.not_together.empty()) refuse("optimise.grinding.not_together", "none with optimise.scatter");
-  if (std::ranges::any_of(optimise.constraints, &OutputConstraint::is_least)) {
-    refuse("optimise.constraints", "with optimise.scatter a constraint on an output bounds the statistic: allowed is { max = ... }");
-  }
+  for (const OutputConstraint& bound : optimise.constraints) check_over_draws(reading, bound);
   const ScatterTable& asked = optimise.scatter;
   if (asked.predicted_from > 0 && (asked.predicted_seed == asked.seed || (asked.fresh > 0 && asked.predicted_seed == asked.fresh_seed))) {
     refuse("optimise.scatter.predicted_seed", "makes the same draws as another seed: allowed is another than optimise.scatter.seed and fresh_seed");

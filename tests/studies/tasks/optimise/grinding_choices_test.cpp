@@ -63,7 +63,6 @@ TEST_CASE("Choices that leave no way are refused", "[studies][grinding][input]")
   CHECK_THAT(refused("not_together = [[\"pinion.modification.twist\", \"pinion.modification.lead_slope\"]]").allowed, Contains("hold one at 0"));
   CHECK_THAT(refused("not_together = [[\"pinion.modification.tip_releif.amount\", \"pinion.modification.profile_crowning\"]]").allowed,
              Contains("did you mean"));
-  CHECK_THAT(refused("smallest_amount = 5\n[optimise.scatter]\ndraws = 8\niso_1328_class = 6").allowed, Contains("none with optimise.scatter"));
 }
 
 TEST_CASE("Results say what could not be ground, what was tried and what each gave", "[studies][grinding][optimise]") {

@@ -61,6 +61,16 @@ TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nfresh = 10\nfresh_seed = 1\n").allowed, Contains("same draws"));
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\npredicted_seed = 1\n").allowed,
              Contains("another than optimise.scatter.seed"));
+  const auto limited = [](const std::string& limit) {
+    return "[lubricant]\nviscosity_40 = 220\nviscosity_100 = 19\ntemperature = 80\nroughness = 0.5\n[optimise.scatter]\ndraws = 8\niso_1328_class = 6\n[optimise.constraints]\n" +
+           limit;
+  };
+  const std::vector<Override> task{
+      {"task", "\"optimise\""}, {"load.torque", "100"}, {"load.speed", "1000"}, {"optimise.variables.pinion.modification.lead_crowning", "[0, 10]"}};
+  CHECK_NOTHROW(
+      read(limited("specific_film_thickness = { min = 0.5 }\neffective_contact_ratio = { min = 1.1 }\ncontact_temperature = { max = 150 }"), task));
+  CHECK_THAT(problem_of(limited("specific_film_thickness = { max = 0.5 }"), task).allowed, Contains("allowed is { min = ... }"));
+  CHECK_THAT(problem_of(limited("edge_load = { min = 5 }"), task).allowed, Contains("allowed is { max = ... }"));
   // One of a hundred draws lies beyond their 99 % quantile, none of 99.
   const auto notes_of = [](const std::string& draws) {
     const Study study = read("[optimise.scatter]\niso_1328_class = 6\nstatistic = { quantile = 0.99 }\ndraws = " + draws + "\n");

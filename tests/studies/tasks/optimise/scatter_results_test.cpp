@@ -60,6 +60,22 @@ TEST_CASE("The validation tries the design that the search over draws found", "[
   CHECK(optimise["governing"]["design"] == optimise["assessed_design"]);
 }
 
+TEST_CASE("The design over draws keeps the smallest amount, and its choices are those shown", "[studies][scatter][grinding]") {
+  const StudyResults results = run_study(parse_study(drawn_study("[optimise.grinding]\nsmallest_amount = 9\n"), "smallest.toml"));
+  const Json optimise = Json::parse(results_json(results))["optimise"];
+  for (const auto& [key, value] : optimise["scatter"]["variables"].items()) {
+    CAPTURE(key);
+    const double amount = value.get<double>();
+    if (key != "pinion.modification.end_relief.length") CHECK((amount == 0.0 || std::abs(amount) >= 9.0 * (1.0 - 1e-12)));  // round-off
+  }
+  REQUIRE(!optimise["grinding_choices"].empty());
+  for (const Json& choice : optimise["grinding_choices"]) {
+    CHECK(choice["statistic_in_words"] == "90 % quantile");
+    CHECK_THAT(choice["words"].get<std::string>(), Contains("gives a 90 % quantile of"));
+    CHECK_THAT(summary_table(results), Contains(choice["words"].get<std::string>()));
+  }
+}
+
 TEST_CASE("A draw runs through all operating states, and results count draws", "[studies][scatter]") {
   const StudyResults results = run_study(parse_study(drawn_study("", coast), "drive-and-coast.toml"));
   const Json optimise = Json::parse(results_json(results))["optimise"], &scatter = optimise["scatter"];
