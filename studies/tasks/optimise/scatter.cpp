@@ -77,9 +77,10 @@ class ScatterRun {
     if (progress_) progress_(label, 0, 1, "");
   }
 
+  /// The statistic of a design over the draws of a task, as a prediction has it: of a quantile or CVaR only the draws that may decide are analysed at the task's
+  /// resolution, and draws that cannot be analysed are left out.
   static double statistic_over(const DesignTask& task, const PerGear<Modification>& modification) {
-    const DesignProblem problem(task);
-    return statistic_over_draws(problem, task.combined_objective(), problem.analyse_design(modification));
+    return predict_statistic(task, modification).value;
   }
 
   void predict(ScatterResult& result) const {
@@ -129,10 +130,14 @@ class ScatterRun {
 
   /// What else a class costs. The output that was searched for has the value of the search.
   void add_outputs(const DesignTask& over, ClassDesign& priced) const {
+    if (priced.design.status == SolverStatus::Failed) return;
     const bool has_stress = is_objective(task_, Output::PeakContactStress), has_te = is_objective(task_, Output::TePeakToPeak);
-    const DesignProblem problem(over);
-    const DesignAnalysis analysis = problem.analyse_design(priced.design.modification);
-    const auto statistic = [&](const char* output) { return statistic_over_draws(problem, {{*find_term(output)}, asked_.statistic}, analysis); };
+    const auto statistic = [&](const char* output) {
+      DesignTask of_output = over;
+      of_output.objective = {*find_term(output)};
+      of_output.objective_bounds.clear();
+      return statistic_over(of_output, priced.design.modification);
+    };
     priced.contact_stress = has_stress ? priced.design.value : statistic("peak_contact_stress");
     priced.te = has_te ? priced.design.value : statistic("te_peak_to_peak");
   }
