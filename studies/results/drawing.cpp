@@ -15,6 +15,13 @@ constexpr int stations = 41;  // of a trace
 
 double part(int i) { return static_cast<double>(i) / (stations - 1); }
 
+/// A relief over no height or length removes nothing.
+void remove_relief(Modification& modification, std::string_view extent) {
+  for (const ModificationDescriptor& amount : modification_parameters) {
+    if (amount.extent == extent) amount.set(modification, 0.0);
+  }
+}
+
 /// A flank and what it is where a single amount lies at one end of its tolerance and the others at their design.
 class TolerancedFlank {
  public:
@@ -24,7 +31,9 @@ class TolerancedFlank {
       const auto moved_by = [&](double difference) {
         const ModificationDescriptor& d = *find_parameter(tolerance.key);
         Modification moved = modification;
-        d.set(moved, d.get(modification) + difference);
+        const double design = d.get(modification), value = design + allowed_difference(d, design, difference);
+        d.set(moved, value);
+        if (d.kind == ParameterKind::Extent && !(value > 0.0)) remove_relief(moved, d.key);
         return make_flank(pair, member, moved, {});
       };
       ends_.push_back({moved_by(tolerance.low), moved_by(tolerance.high)});

@@ -56,9 +56,12 @@ struct StatedTolerance {
   const char* symbol;  ///< null: given by the study
 };
 
-std::optional<StatedTolerance> tolerance_of(std::string_view key, const FlankTolerances& t, const DrawingTerms& terms) {
+std::optional<StatedTolerance> tolerance_of(const ModificationDescriptor& d, double design, const FlankTolerances& t, const DrawingTerms& terms) {
+  const std::string_view key = d.key;
   const auto given = std::ranges::find(terms.amounts, key, &AmountTolerance::key);
-  if (given != terms.amounts.end()) return StatedTolerance{given->low, given->high, nullptr};
+  if (given != terms.amounts.end()) {
+    return StatedTolerance{allowed_difference(d, design, given->low), allowed_difference(d, design, given->high), nullptr};
+  }
   struct OfClass {
     std::string_view key;
     double FlankTolerances::*tolerance;
@@ -77,7 +80,7 @@ std::optional<StatedTolerance> tolerance_of(std::string_view key, const FlankTol
   return std::nullopt;
 }
 
-/// "22.0 ± 3.0 µm", "14.0 ± 9.0 µm (f_HβT)", "8.0 +2.0 -1.0 µm".
+/// "22.0 ± 3.0 µm", "14.0 ± 9.0 µm (f_HβT)", "8.0 +2.0 -1.0 µm", "0.0 +3.0 0 µm".
 std::string value_in_words(const ModificationDescriptor& d, double value, const std::optional<StatedTolerance>& tolerance) {
   const double factor = outside_factor(d.kind);
   if (d.kind == ParameterKind::TeParabola) return fmt::format("{:.3g} {}", value * factor, unit_of(d.kind));
@@ -87,10 +90,18 @@ std::string value_in_words(const ModificationDescriptor& d, double value, const 
   if (!tolerance) return written(value, decimals_of({value * factor}, least)) + " " + unit;
   const auto& [low, high, symbol] = *tolerance;
   const int places = symbol ? decimals_of({value * factor}, least) : decimals_of({value * factor, low * factor, high * factor}, least);
-  const std::string band = std::abs(high + low) < 1e-9 * std::abs(high)
-                               ? "± " + written(high, places)
-                               : fmt::format("{:+.{}f} {:+.{}f}", high * factor, places, low * factor, places);
+  const auto limit = [&](double difference) { return difference == 0.0 ? std::string("0") : fmt::format("{:+.{}f}", difference * factor, places); };
+  const std::string band = std::abs(high + low) < 1e-9 * std::abs(high) ? "± " + written(high, places) : limit(high) + " " + limit(low);
   return fmt::format("{} {} {}{}", written(value, places), band, unit, symbol ? fmt::format(" ({})", symbol) : std::string());
+}
+
+/// What is said where the study's tolerance of a relief goes below 0; empty where it does not.
+std::string cut_tolerance(const ModificationDescriptor& d, double design, const DrawingTerms& terms) {
+  const auto given = std::ranges::find(terms.amounts, d.key, &AmountTolerance::key);
+  if (given == terms.amounts.end() || allowed_difference(d, design, given->low) == given->low) return "";
+  const int places = d.kind == ParameterKind::Extent ? 2 : 1;
+  return fmt::format("    the study's tolerance goes down to {:.{}f} {}; the least that can be ground is 0",
+                     (design + given->low) * outside_factor(d.kind), places, unit_in_words(d.kind));
 }
 
 /// ", parabolic" of the amount of a relief that is not of the usual shape.
@@ -143,8 +154,9 @@ std::vector<std::vector<std::string>> amounts_of(const GearPair& pair, Member me
   for (const ModificationDescriptor& d : modification_parameters) {
     const bool stated = is_stated(d, modification);
     const double brought = process.of(d.key), set = stated ? d.get(modification) : 0.0;
-    const auto tolerance = tolerance_of(d.key, t, terms);
-    if (!stated && brought == 0.0 && !(tolerance && tolerance->symbol == nullptr)) continue;
+    const auto tolerance = tolerance_of(d, set, t, terms);
+    const bool has_own_tolerance = tolerance && tolerance->symbol == nullptr && d.kind != ParameterKind::Extent;  // an extent says nothing by itself
+    if (!stated && brought == 0.0 && !has_own_tolerance) continue;
     const std::string symbol = d.symbol.empty() ? "" : std::string(d.symbol) + ", ", sense = d.sense.empty() ? "" : "; " + std::string(d.sense);
     std::vector<std::string> lines{
         fmt::format("{}{} = {}{}{}", symbol, d.name, value_in_words(d, set + brought, tolerance), shape_in_words(d, modification), sense)};
@@ -152,6 +164,7 @@ std::vector<std::vector<std::string>> amounts_of(const GearPair& pair, Member me
       lines.push_back(set == 0.0 ? fmt::format("    brought by the grinding process{}", d.key == "twist" ? "" : ", at mid face")
                                  : fmt::format("    set {:.1f} µm, the grinding process brings {:.1f} µm", in_um(set), in_um(brought)));
     }
+    if (const std::string cut = cut_tolerance(d, set, terms); !cut.empty()) lines.push_back(cut);
     if (d.key == "twist") lines.push_back(fmt::format("    {} = C_Hα at z = +b/2 less C_Hα at z = -b/2", d.symbol));
     if (const std::string start = relief_start(pair[member], d, modification); !start.empty()) lines.push_back("    " + start);
     all.push_back(std::move(lines));
@@ -179,6 +192,11 @@ std::string tolerance_line(const char* symbol, double tolerance, bool either_way
 }
 
 }  // namespace
+
+double allowed_difference(const ModificationDescriptor& d, double design, double difference) {
+  const bool is_of_relief = d.kind == ParameterKind::Extent || !d.extent.empty();
+  return is_of_relief && design >= 0.0 ? std::max(difference, -design) : difference;
+}
 
 std::vector<std::string> drawing_lines(const GearPair& pair, Member member, const Modification& modification, const FlankTolerances& t,
                                        const DrawingTerms& terms) {

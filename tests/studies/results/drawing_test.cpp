@@ -190,6 +190,39 @@ TEST_CASE("The band of an amount is written beside it and widens the K-chart whe
         Approx(0.5 * other.tolerances.profile_total + 4.0 * units::um).margin(round_off));
 }
 
+TEST_CASE("The tolerance of a relief ends at 0, and the drawing says so", "[studies][drawing]") {
+  const GearPair pair = helical();
+  Modification m;
+  set(m, parameter_of("tip_relief.amount"), 2.0 * units::um);
+  set(m, parameter_of("tip_relief.height"), 1.5);
+  constexpr double round_off = 1e-12;  // mm
+  const FlankDrawing amount =
+      make_drawing(pair, Member::Pinion, m, {.tolerance_class = 6, .amounts = {{"tip_relief.amount", -3.0 * units::um, 3.0 * units::um}}});
+  const auto [line, below] = lines_with(amount, "tip relief =");
+  CHECK_THAT(line, Catch::Contains("= 2.0 +3.0 -2.0 µm"));
+  CHECK_THAT(below, Catch::Contains("goes down to -1.0 µm; the least that can be ground is 0"));
+  // At the tip the band reaches the flank without relief, not one with metal added.
+  const FlankTrace& tip = amount.profiles[1];
+  CHECK(tip.high.back() - tip.deviation.back() == Approx(0.5 * amount.tolerances.profile_total + 2.0 * units::um).margin(round_off));
+  const FlankDrawing height = make_drawing(pair, Member::Pinion, m, {.tolerance_class = 6, .amounts = {{"tip_relief.height", -2.0, 0.5}}});
+  CHECK_THAT(lines_with(height, "tip relief height").first, Catch::Contains("= 1.50 +0.50 -1.50 mm"));
+  CHECK_THAT(lines_with(height, "goes down to").first, Catch::Contains("-0.50 mm"));
+  // A relief over no height removes nothing: nowhere does the band leave that of the design by more than the relief.
+  const FlankTrace& profile = height.profiles[1];
+  for (std::size_t i = 0; i < profile.along.size(); ++i) {
+    CAPTURE(i);
+    const double added = profile.high[i] - profile.deviation[i] - 0.5 * height.tolerances.profile_total;
+    CHECK(added >= -round_off);
+    CHECK(added <= 2.0 * units::um + round_off);
+  }
+  // The least amount of a relief that is not ground is 0, and a slope has either sign.
+  set(m, parameter_of("tip_relief.amount"), 0.0);
+  const DrawingTerms terms{.tolerance_class = 6,
+                           .amounts = {{"tip_relief.amount", -3.0 * units::um, 3.0 * units::um}, {"lead_slope", -3.0 * units::um, 3.0 * units::um}}};
+  CHECK_THAT(lines_with(make_drawing(pair, Member::Pinion, m, terms), "tip relief =").first, Catch::Contains("= 0.0 +3.0 0 µm"));
+  CHECK_THAT(lines_with(make_drawing(pair, Member::Pinion, m, terms), "lead slope =").first, Catch::Contains("= 0.0 ± 3.0 µm"));
+}
+
 TEST_CASE("A relief begins at a diameter and a roll length that are the same point", "[studies][drawing]") {
   const GearPair pair = helical();
   Modification m;
