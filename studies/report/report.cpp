@@ -73,7 +73,7 @@ constexpr Section sections[] = {
     {"transmission-error", "Transmission error under load", has_loaded},
     {"stiffness", "Load sharing and mesh stiffness", has_loaded},
     {"modifications", "Flank modifications", [](const Json& r) { return has(r, "modifications") && !optimised(r); }},
-    {"validation", "Scenes drawn afresh", [](const Json& r) { return has_assessment(r, "validation"); }},
+    {"validation", "Draws not seen by the search", [](const Json& r) { return has_assessment(r, "validation"); }},
     {"comparison", "Optimum and other designs", [](const Json& r) { return has_assessment(r, "comparison"); }},
     {"governing", "What governs the optimum", [](const Json& r) { return has_assessment(r, "governing"); }},
     {"sensitivity", "Sensitivity of the optimum", [](const Json& r) { return has_assessment(r, "sensitivity"); }},

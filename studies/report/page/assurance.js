@@ -1,6 +1,6 @@
-// Assurance: discretisation errors, fresh scenes that the optimiser has not seen, other designs and other starts.
+// Assurance: discretisation errors, fresh draws that the optimiser has not seen, other designs and other starts.
 
-/** Spread of each design over the fresh scenes: least to largest as a line, the quantiles as a bar, the mean as a mark. */
+/** Spread of each design over the fresh draws: least to largest as a line, the quantiles as a bar, the mean as a mark. */
 function draw_spread(plot, validation, unit) {
   const designs = list(validation.designs).map(record).filter((design) => is_number(design.least) && is_number(design.greatest));
   if (designs.length === 0) return;
@@ -9,7 +9,7 @@ function draw_spread(plot, validation, unit) {
   const height = top + bottom + row_height * designs.length;
   const low = minimum(designs.map((d) => d.least)), high = maximum(designs.map((d) => d.greatest));
   const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
-  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "Spread over scenes drawn afresh" });
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "Spread over draws not seen by the search" });
   for (const tick of round_ticks(low, high, 4)) {
     picture.append(svg("line", { x1: to_x(tick), x2: to_x(tick), y1: top, y2: height - bottom, class: "grid-line" }),
       svg("text", { x: to_x(tick), y: height - 5, "text-anchor": "middle", class: "muted" }, fmt(tick)));
@@ -22,7 +22,7 @@ function draw_spread(plot, validation, unit) {
       svg("line", { x1: to_x(design.least), x2: to_x(design.greatest), y1: y, y2: y, stroke: colour, "stroke-width": 1.5 }));
     if (inner[0]) {
       picture.append(svg("rect", { x: to_x(inner[0].value), y: y - 5, width: Math.max(1, to_x(inner[1].value) - to_x(inner[0].value)), height: 10, rx: 2, fill: colour },
-        svg("title", {}, `${design.name}: ${fmt(100 * inner[0].share)} to ${fmt(100 * inner[1].share)} % of the scenes between ${fmt(inner[0].value)} and ${fmt(inner[1].value)} ${unit}`)));
+        svg("title", {}, `${design.name}: ${fmt(100 * inner[0].share)} to ${fmt(100 * inner[1].share)} % of the draws between ${fmt(inner[0].value)} and ${fmt(inner[1].value)} ${unit}`)));
     }
     if (is_number(design.mean)) {
       picture.append(svg("line", { x1: to_x(design.mean), x2: to_x(design.mean), y1: y - 7, y2: y + 7, class: "mean-mark" }, svg("title", {}, `mean ${fmt(design.mean)} ${unit}`)));
@@ -80,8 +80,8 @@ function assurance_panel(plot, results) {
     rule_fact(optimise),
     ended ? ["Search", ...ended] : null,
     starts_fact(optimise),
-    is_number(share) ? ["Fresh scenes", `better in ${fmt(100 * share, 3)} % of ${fmt(validation.samples, 7)}`, share > 0.95 ? "good" : share < 0.5 ? "bad" : null]
-      : ["Fresh scenes", "not drawn: [optimise.validation]"],
+    is_number(share) ? ["Fresh draws", `better in ${fmt(100 * share, 3)} % of ${fmt(validation.samples, 7)}`, share > 0.95 ? "good" : share < 0.5 ? "bad" : null]
+      : ["Fresh draws", "none: [optimise.validation]"],
   ]));
   if (list(validation.designs).length) draw_spread(plot, validation, unit);
 }

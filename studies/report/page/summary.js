@@ -135,7 +135,9 @@ function draw_verdict(results, cases) {
       + "at the start for the range of a variable; an optimum's are off by 0.01 % at most."));
   }
   if (relaxation.length > 0) {
-    verdict.append(el("div", { class: "banner", id: "relaxation" }, el("ul", { class: "statements" }, ...relaxation.map((sentence) => el("li", {}, pretty_unit(sentence))))));
+    verdict.append(el("div", { class: "banner", id: "relaxation" },
+      el("strong", {}, "No feasible design: the limits that are exceeded, and what would reduce the excess"),
+      el("ul", { class: "statements" }, ...relaxation.map((sentence) => el("li", {}, capital(pretty_unit(sentence).replace("<=", "≤")))))));
   }
 }
 

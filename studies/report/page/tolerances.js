@@ -61,6 +61,16 @@ function load_cases_of_draw(scatter) {
   return ` Each draw has ${count} load cases in ${states.length > 1 ? `${states.length} operating states (${states.join(", ")})` : "one operating state"}; its value is the ${scatter.within_draw} of them.`;
 }
 
+/** What is drawn, and from which distribution. */
+function tolerances_table(body, tolerances) {
+  table(body, {
+    title: "What scatters",
+    note: tolerances.some(({ added }) => added) ? "A value that is added is the difference from the design, or from the misalignment of the scene." : undefined,
+    columns: [{ label: "Quantity" }, { label: "Distribution" }, { label: "Unit" }],
+    rows: tolerances.map((tolerance) => [words(`${tolerance.name}`), `${pretty_unit(`${tolerance.distribution}`)}${tolerance.added ? ", added" : ""}`, pretty_unit(tolerance.unit ?? "")]),
+  });
+}
+
 function build_tolerances(results, body) {
   const scatter = record(record(results.optimise).scatter), unit = pretty_unit(scatter.unit), fresh = record(scatter.fresh);
   const without = record(scatter.without_scatter), predicted = record(scatter.predicted);
@@ -85,11 +95,7 @@ function build_tolerances(results, body) {
         exceeded.includes(limit.name) ? { text: "exceeded", class: "bad" } : { text: "kept", class: "" }]),
     });
   }
-  table(body, {
-    title: "What scatters",
-    columns: [{ label: "Quantity" }, { label: "Distribution" }],
-    rows: list(scatter.tolerances).map(record).map((tolerance) => [words(`${tolerance.name}`), `${tolerance.distribution}${tolerance.added ? ", added" : ""}`]),
-  });
+  tolerances_table(body, list(scatter.tolerances).map(record));
   const classes = list(scatter.classes).map(record);
   if (classes.length === 0) return;
   table(body, {

@@ -232,7 +232,7 @@ std::string validation_in_words(const Validation& validation, const DesignTask& 
   const double better = share_below(validation.designs[1].measures, validation.designs[0].measures);
   const std::string load_cases = validation.load_cases.empty() ? "" : validation.load_cases + ",";
   std::string words = fmt::format(
-      "Over {} scenes drawn afresh (seed {}){} the design is better than before in {:.1f} %; mean {:.5g} -> {:.5g}, 95 % below {:.5g} -> {:.5g}, "
+      "Over {} draws that the search has not seen (seed {}){} the design is better than before in {:.1f} %; mean {:.5g} -> {:.5g}, 95 % below {:.5g} -> {:.5g}, "
       "largest {:.5g} -> {:.5g}{}.",
       validation.draws.size(), validation.seed, load_cases, 100.0 * better, before.mean, after.mean, before.quantiles.back(), after.quantiles.back(),
       before.greatest, after.greatest, behind_number(task.objective_unit()));

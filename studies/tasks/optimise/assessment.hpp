@@ -65,7 +65,7 @@ std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const
 /// Of rules of which none is feasible: how many, and which exceeds the constraints by least.
 std::string no_rule_in_words(const std::vector<ComparedDesign>& rules);
 
-/// "Over 500 scenes drawn afresh (seed 1) the design is better in 98.2 %, ..."
+/// "Over 500 draws that the search has not seen (seed 1) the design is better in 98.2 %, ..."
 std::string validation_in_words(const Validation& validation, const DesignTask& task);
 
 /// The active conditions at the optimum, a sentence each: scenes with their weights where a design decides on them, variables at a bound, constraints and earlier

@@ -1,7 +1,10 @@
 #include "studies/tasks/optimise/assessment_json.hpp"
-#include "studies/tasks/optimise/listed_scenes.hpp"
 
 #include <algorithm>
+
+#include "studies/base/value_with_unit.hpp"
+#include "studies/study_file/study_schema.hpp"
+#include "studies/tasks/optimise/listed_scenes.hpp"
 
 namespace flankwright::studies {
 
@@ -176,10 +179,7 @@ Json validation_json(const Validation& validation, const DesignTask& task, const
   Json json{{"samples", validation.draws.size()},
             {"seed", validation.seed},
             {"seconds", validation.seconds},
-            {"tolerances", list(asked.tolerances,
-                                [](const SceneTolerance& t) -> Json {
-                                  return {{"name", t.path}, {"distribution", t.in_words}, {"added", t.added}};
-                                })},
+            {"tolerances", list(asked.tolerances, tolerance_json)},
             {"words", validation_in_words(validation, task)},
             {"share_better_than_before", share_below(after, validation.designs[0].measures)},
             {"bin_edges", edges},
@@ -189,6 +189,14 @@ Json validation_json(const Validation& validation, const DesignTask& task, const
 }
 
 }  // namespace
+
+Json tolerance_json(const SceneTolerance& tolerance) {
+  Json json{{"name", tolerance.path}, {"distribution", tolerance.in_words}, {"added", tolerance.added}};
+  const auto known = study_keys().find(tolerance.path);
+  // A pitch is drawn tooth by tooth; its distribution says the units.
+  if (known != study_keys().end() && !tolerance.pitch) json["unit"] = default_unit(known->second->quantity);
+  return json;
+}
 
 void add_assessment(const Assessment& assessment, const DesignTask& task, const AssessmentTable& asked, Json& optimise) {
   optimise["comparison"] = comparison_json(assessment, task);

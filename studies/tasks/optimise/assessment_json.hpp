@@ -5,6 +5,9 @@
 
 namespace flankwright::studies {
 
+/// An entry of the tolerances that draws are made from: name, distribution, unit of its values, and whether they are added.
+Json tolerance_json(const SceneTolerance& tolerance);
+
 /// Adds `comparison`, `validation`, `governing` and `sensitivity` to the `optimise` part of the results.
 void add_assessment(const Assessment& assessment, const DesignTask& task, const AssessmentTable& asked, Json& optimise);
 

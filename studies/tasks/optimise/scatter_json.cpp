@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "studies/base/plain_names.hpp"
+#include "studies/tasks/optimise/assessment_json.hpp"
 
 namespace flankwright::studies {
 
@@ -63,11 +64,11 @@ std::string statistic_in_words(const Aggregation& statistic) {
   return fmt::format("mean + {:g} sigma", statistic.sigmas);
 }
 
-Json scatter_json(const ScatterResult& result, const DesignTask& task, const Study& study) {
 std::string statistic_of_choices(const StudyResults& results) {
   return results.scatter ? statistic_in_words(results.study.optimise.scatter.statistic) : "";
 }
 
+Json scatter_json(const ScatterResult& result, const DesignTask& task, const Study& study) {
   const ScatterTable& asked = study.optimise.scatter;
   Json json{{"statistic", to_string(asked.statistic)},
             {"statistic_in_words", statistic_in_words(asked.statistic)},
@@ -78,9 +79,7 @@ std::string statistic_of_choices(const StudyResults& results) {
             {"states", list(result.states, [](const OperatingState& state) -> Json { return state.scene.name; })},
             {"load_cases_of_a_draw", result.draws.front().load_cases.size()},
             {"within_draw", to_string(task.within_draw)},
-            {"tolerances", list(study.optimise.assessment.tolerances, [](const SceneTolerance& t) -> Json {
-               return {{"name", t.path}, {"distribution", t.in_words}, {"added", t.added}};
-             })}};
+            {"tolerances", list(study.optimise.assessment.tolerances, tolerance_json)}};
   if (asked.iso_1328_class) json["iso_1328_class"] = *asked.iso_1328_class;
   json.update(search_json(result.design, task));
   json["without_scatter"] = {{"variables", variables_of(result.without, task)}, {"value", result.without_value}, {"seconds", result.search_seconds}};
