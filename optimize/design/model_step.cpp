@@ -42,8 +42,10 @@ class LevelMethod {
       descend(best, reached);
       if (model_.objective.objective().over == Aggregate::Quantile ? before - reached <= level_round_off * std::abs(before) : true) break;
     }
-    if (reduces_excess_) return {centre_ + best, first - reached};
-    return {centre_ + best, first > 0.0 ? 1.0 - model_.objective.unseen(reached) / model_.objective.unseen(first) : 0.0};
+    // A step leaves the box by round-off. What is held at a value stays there exactly.
+    const Eigen::VectorXd x = (centre_ + best).cwiseMax(model_.lower).cwiseMin(model_.upper);
+    if (reduces_excess_) return {x, first - reached};
+    return {x, first > 0.0 ? 1.0 - model_.objective.unseen(reached) / model_.objective.unseen(first) : 0.0};
   }
 
  private:
