@@ -82,7 +82,7 @@ const time_text = (s) => (!is_number(s) ? "–" : s < 0.1 ? `${fmt(1000 * s, 2)}
 
 /** Units as they are printed: um -> µm, Nm -> N·m; nothing for the "1" of a plain number. */
 const pretty_unit = (unit) =>
-  (typeof unit === "string" && unit !== "1" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°").replace(/\^2\b/g, "²");
+  (typeof unit === "string" && unit !== "1" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/\bdegC\b/g, "°C").replace(/^deg$/, "°").replace(/\^2\b/g, "²");
 
 /** Plain names of keys and outputs, key -> {name, symbol, sense}, in the order of tables; they are stored in the page with the results. */
 const NAMES = new Map();
