@@ -64,12 +64,12 @@ struct ShaftMotion {
 ///
 /// Other meshes and outside loads act with their mean forces f T, in proportion to the torque, and move the flanks apart by
 ///
-///     g(p) = t_p' S^-1 f T - s_p'v         [outside_motion()],
+///     g(p) = t_p' S^-1 (f T + h) - s_p'v         [outside_motion()],
 ///
-/// plus t_p' S^-1 c of loads c that are there whatever the torque is, and v are displacements of shafts in their bearings that are forced on them, and s_p the supports' forces under t_p. With clearances, and with bearings
-/// whose stiffness depends on the load, S is that at the equilibrium under mean forces, the pair's by one normal force at the pitch point at mid face: a bearing
-/// whose shaft is pressed against the border, shifted by c in the direction e of its force F, yields by (c/|F|) (1 - e e') beyond its spring, one with a law
-/// by its tangent, see tangent_of(), and one that carries nothing is not there.
+/// where h are loads that are the same at every torque, v are displacements of shafts in their bearings that are forced on them, and s_p the supports'
+/// forces under t_p. With clearances, and with bearings whose stiffness depends on the load, S is that at the equilibrium under mean forces, the pair's by
+/// one normal force at the pitch point at mid face: a bearing whose shaft is pressed against the border, shifted by c in the direction e of its force F,
+/// yields by (c/|F|) (1 - e e') beyond its spring, one with a law by its tangent, see tangent_of(), and one that carries nothing is not there.
 /// linearised_at() makes these shafts; they are exact at that load and tangent to the truth around it.
 ///
 /// Departures from app. 2C, which has the whole load at mid face, the translation of the axis alone (the section's
