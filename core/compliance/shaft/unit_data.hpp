@@ -62,7 +62,7 @@ struct UnitLoad {
   Eigen::Vector3d moment{Eigen::Vector3d::Zero()};  ///< [N mm]; z is torque
   bool constant{false};                             ///< the same at every torque, as a weight or the pull of a belt; it has no torque then
 
-  /// It would not turn round with the torque: a force, or a moment across the shaft, in proportion to it.
+  /// Whether it keeps its direction when the torque turns round, or is a torque itself: false of a force or a moment across the shaft in proportion to the torque.
   bool keeps_direction() const { return constant || (force.isZero(0.0) && moment.head<2>().isZero(0.0)); }
 };
 
@@ -87,8 +87,8 @@ struct UnitData {
   std::vector<UnitLoad> loads;
   std::vector<ShaftJoint> joints;
   Housing housing;
-  double reference_torque{
-      not_given};  ///< on the pinion, at which loads and given torques are meant [N mm], > 0; all scale with the torque but constant ones
+  /// On the pinion, at which loads and given torques are meant [N mm], > 0; all of them but constant loads scale with the torque.
+  double reference_torque{not_given};
 
   bool empty() const { return shafts.empty() && meshes.empty() && loads.empty() && joints.empty() && housing.seats.empty(); }
 };
@@ -115,7 +115,7 @@ struct ShaftsOfPair {
 std::vector<Eigen::Vector2d> axes_of(const ShaftsOfPair& shafts, const GearPair& pair);
 
 /// The same with all torques the other way round: what the other flanks of the pair carry.
-/// @pre all loads keep their direction or are torques, see UnitLoad::keeps_direction()
+/// @pre UnitLoad::keeps_direction() of all loads
 ShaftsOfPair with_torques_reversed(ShaftsOfPair shafts);
 
 /// The same shafts and unit seen in a mirror, the plane y = 0: as a pair that works on its left flanks is analysed.

@@ -19,7 +19,7 @@ struct MeshState {
   double normal_force{not_given};                               ///< [N], >= 0
   Eigen::Vector3d force{Eigen::Vector3d::Constant(not_given)};  ///< on the second gear [N]
   WorkingFlank first_flank{WorkingFlank::Right};                ///< of the first gear that works
-  /// Over the common face by the tilt of its shafts, as ShaftMotion::misalignment [mm]; NaN: the mesh has no face width, or is the pair's, whose gears' models tilt as well.
+  /// Over the common face by the tilt of its shafts, as ShaftMotion::misalignment [mm]; NaN of a mesh without face width and of the pair under study.
   double misalignment{not_given};
   /// Where it resists tilting, the largest force per face width over the mean by its linear spring [-], >= 1; NaN: it does not. Above 2 one end of the
   /// face is out of contact, and the spring holds the shafts more than the teeth do.
