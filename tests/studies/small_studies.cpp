@@ -69,25 +69,30 @@ te_peak_to_peak = { max = 5 }
 )";
 }
 
-std::string unit_pair() {
+std::string helical_pair(const std::string& of_pair, const std::string& of_pinion, const std::string& torque) {
   return R"([pair]
 normal_module = 4
 helix_angle = 15
-working_flank = "left"
-[pinion]
+)" + of_pair +
+         R"([pinion]
 teeth = 21
 face_width = 40
-hand = "left"
-[wheel]
+)" + of_pinion +
+         R"([wheel]
 teeth = 40
 face_width = 40
 [load]
-torque = 300
+torque = )" +
+         torque + R"(
 [cycle]
 positions = 4
 [fidelity]
 compliance = "thin_slice"
-quadrature = { rule = "graded", intervals = 12 }
+)";
+}
+
+std::string unit_pair() {
+  return helical_pair("working_flank = \"left\"\n", "hand = \"left\"\n") + R"(quadrature = { rule = "graded", intervals = 12 }
 [pinion.shaft]
 sections = [{ length = 180, outer_diameter = 50 }]
 bearings = [{ position = 10, radial_stiffness = 800 }, { position = 170, radial_stiffness = 400 }]

@@ -11,7 +11,12 @@ std::string analysis();
 /// The same pair optimised over three scenes, te_peak_to_peak bounded.
 std::string optimisation();
 
-/// A left-hand helical pair 21:40 that works on its left flanks, its pinion on a shaft without a coupling: it needs unit().
+/// A helical pair 21:40 by thin slices at four positions; the text ends in [fidelity].
+/// @param of_pair, of_pinion  further lines of [pair] and [pinion]
+/// @param torque  [N m], a number or a list
+std::string helical_pair(const std::string& of_pair = "", const std::string& of_pinion = "", const std::string& torque = "300");
+
+/// The same of left hand, that works on its left flanks, its pinion on a shaft without a coupling: it needs unit().
 std::string unit_pair();
 
 /// The unit around it: an input shaft, and a first stage on the pinion's shaft.

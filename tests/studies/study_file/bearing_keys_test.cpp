@@ -7,28 +7,14 @@
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
 
 namespace flankwright::studies {
 namespace {
 
 /// A pair whose pinion's shaft has these bearings.
 std::string pair_with_bearings(const std::string& bearings) {
-  return R"([pair]
-normal_module = 4
-helix_angle = 15
-[pinion]
-teeth = 21
-face_width = 40
-[wheel]
-teeth = 40
-face_width = 40
-[load]
-torque = [150, 300]
-[cycle]
-positions = 4
-[fidelity]
-compliance = "thin_slice"
-quadrature = { rule = "graded", intervals = 12 }
+  return small::helical_pair("", "", "[150, 300]") + R"(quadrature = { rule = "graded", intervals = 12 }
 [pinion.shaft]
 sections = [{ length = 180, outer_diameter = 50 }]
 gear_position = 90

@@ -9,6 +9,7 @@
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/studies/small_studies.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -17,22 +18,7 @@ using json = Json;
 
 constexpr double shaft_round_off = 1e-14;
 
-const std::string pair_text = R"([pair]
-normal_module = 4
-helix_angle = 15
-[pinion]
-teeth = 21
-face_width = 40
-[wheel]
-teeth = 40
-face_width = 40
-[load]
-torque = 300
-[cycle]
-positions = 4
-[fidelity]
-compliance = "thin_slice"
-)";
+const std::string pair_text = small::helical_pair();
 
 const std::string shaft_text = R"([pinion.shaft]
 sections = [{ length = 80, outer_diameter = 50 }, { length = "100 mm", outer_diameter = 60, inner_diameter = 20 }]
