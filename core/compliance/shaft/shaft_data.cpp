@@ -56,8 +56,9 @@ void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
 
 std::array<bool, 5> ShaftBearing::holds() const {
   if (!has_matrix()) return {radial_stiffness > 0.0, radial_stiffness > 0.0, axial_stiffness > 0.0, tilting_stiffness > 0.0, tilting_stiffness > 0.0};
-  std::array<bool, 5> held;
-  for (Eigen::Index i = 0; i < 5; ++i) held[static_cast<std::size_t>(i)] = !stiffness_matrix.row(i).isZero(0.0);
+  std::array<bool, 5> held{};
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(5, stiffness_matrix.rows()); ++i)
+    held[static_cast<std::size_t>(i)] = !stiffness_matrix.row(i).isZero(0.0);
   return held;
 }
 
