@@ -12,7 +12,7 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
-constexpr int model_version = 10;
+constexpr int model_version = 11;
 /// To be raised whenever the same influence values give another fit: form, stations, residuals.
 constexpr int fit_version = 3;
 /// To be raised whenever the same web comes to mean other numbers.
@@ -106,7 +106,8 @@ Json cache_key(const InfluenceTableTask& task) {
           {"removed_motion", static_cast<int>(task.removed)},
           {"root_stress", task.root_stress},
           {"us", task.grid.us()},
-          {"zetas", task.grid.zetas()}};
+          {"zetas", task.grid.zetas()},
+          {"neighbours", {task.grid_of_neighbours().us(), task.grid_of_neighbours().zetas()}}};
 }
 
 /// @param run  Factorised

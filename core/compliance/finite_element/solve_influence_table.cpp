@@ -14,17 +14,53 @@
 namespace flankwright {
 namespace {
 
-std::vector<FlankPoint> flank_points(const GearMesh& mesh, const StationGrid& grid) {
-  const ToothForm& form = mesh.form;
-  std::vector<FlankPoint> points;
-  for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
-    for (const FlankStation& station : grid.stations(tooth)) {
-      points.push_back(
-          {tooth, form.form_radius() + (station.u + 1) / 2 * (form.tip_radius() - form.form_radius()), station.zeta - mesh.face_width / 2});
-    }
+/// The stations on all detailed teeth, one tooth after the other: those of the grid on tooth 0, those of the neighbours' grid on the others.
+class TeethStations {
+ public:
+  explicit TeethStations(const InfluenceTableTask& task) : task_(task) {
+    const StationGrid& neighbours = task.grid_of_neighbours();
+    onto_grid_.resize(task.grid.size(), neighbours.size());
+    Eigen::Index row = 0;
+    for (const FlankStation& station : task.grid.stations()) onto_grid_.row(row++) = neighbours.weights(station);
   }
-  return points;
-}
+
+  std::vector<FlankPoint> points(const GearMesh& mesh) const {
+    const ToothForm& form = mesh.form;
+    std::vector<FlankPoint> result;
+    for (int tooth = -task_.teeth_apart; tooth <= task_.teeth_apart; ++tooth) {
+      for (const FlankStation& station : (tooth == 0 ? task_.grid : task_.grid_of_neighbours()).stations(tooth)) {
+        result.push_back(
+            {tooth, form.form_radius() + (station.u + 1) / 2 * (form.tip_radius() - form.form_radius()), station.zeta - mesh.face_width / 2});
+      }
+    }
+    return result;
+  }
+
+  /// Number of stations before those of a tooth.
+  Eigen::Index first(int tooth) const {
+    const Eigen::Index before = (task_.teeth_apart + tooth) * onto_grid_.cols();
+    return tooth > 0 ? before - onto_grid_.cols() + onto_grid_.rows() : before;
+  }
+
+  /// Columns at the stations of every tooth, interpolated to the grid on the neighbours.
+  Eigen::MatrixXd on_grid(const Eigen::MatrixXd& columns) const {
+    const Eigen::Index n = onto_grid_.rows(), n_neighbour = onto_grid_.cols();
+    Eigen::MatrixXd result(columns.rows(), (2 * task_.teeth_apart + 1) * n);
+    for (int tooth = -task_.teeth_apart; tooth <= task_.teeth_apart; ++tooth) {
+      auto of_tooth = result.middleCols((task_.teeth_apart + tooth) * n, n);
+      if (tooth == 0) {
+        of_tooth = columns.middleCols(first(tooth), n);
+      } else {
+        of_tooth = columns.middleCols(first(tooth), n_neighbour) * onto_grid_.transpose();
+      }
+    }
+    return result;
+  }
+
+ private:
+  const InfluenceTableTask& task_;
+  Eigen::MatrixXd onto_grid_;  ///< weights of the neighbours' stations in the values at those of the grid
+};
 
 }  // namespace
 
@@ -43,7 +79,7 @@ bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask&
     const GearToMesh& gear = task.gear;
     return std::tie(gear.gear.teeth, gear.gear.face_width, gear.gear.profile_shift, gear.gear.tip_diameter, gear.gear.rack, gear.pressure_angle,
                     gear.helix_angle, gear.body, task.poissons_ratio, task.teeth_apart, task.mesh, task.removed, task.root_stress, task.grid.us(),
-                    task.grid.zetas());
+                    task.grid.zetas(), task.grid_of_neighbours().us(), task.grid_of_neighbours().zetas());
   };
   return fields(a) == fields(b);
 }
@@ -93,7 +129,8 @@ class TableSolver {
     Eigen::SparseMatrix<double> readings = taken(roots.stress);
     append_columns(readings, taken(roots.on_the_flank));
     if (has_rim) append_columns(readings, rim_functionals(mesh));
-    FlankFunctionals functionals(mesh, flank_points(mesh, task_.grid), task_.removed, taken(readings));
+    const TeethStations stations(task_);
+    FlankFunctionals functionals(mesh, stations.points(mesh), task_.removed, taken(readings));
     const double model = clock.seconds();
     int last = 0;
     const MultifrontalGram solved = influence_at_once(std::move(stiffness), std::move(functionals.all), memory_limit, [&](double done) {
@@ -106,11 +143,13 @@ class TableSolver {
     statistics.model_seconds = model + solved.analysis_seconds;
     if (run_.status != FactorStatus::Factorised) return;
     const FlankInfluence influence = functionals.influence(solved.gram, axial_hold_compliance(mesh, material, task_.removed));
-    run_.table.emplace(task_.grid, tables(influence.compliance.middleCols(task_.teeth_apart * task_.grid.size(), task_.grid.size())));
-    if (has_rim)
-      run_.rim_motion = rim_motion_table(mesh, task_.grid, influence.readings.bottomRows(influence.readings.rows() - of_stress - of_loads));
+    run_.table.emplace(task_.grid, tables(stations.on_grid(influence.compliance.middleRows(stations.first(0), task_.grid.size()))));
+    if (has_rim) {
+      run_.rim_motion =
+          rim_motion_table(mesh, task_.grid, stations.on_grid(influence.readings.bottomRows(influence.readings.rows() - of_stress - of_loads)));
+    }
     if (task_.root_stress) {
-      run_.root_stress = root_stress_table(mesh, task_.grid, roots.fillet, influence.readings.topRows(of_stress),
+      run_.root_stress = root_stress_table(mesh, task_.grid, roots.fillet, stations.on_grid(influence.readings.topRows(of_stress)),
                                            influence.between_readings.block(0, of_stress, of_stress, of_loads));
     }
     statistics.solve_seconds = clock.seconds() - statistics.model_seconds;
@@ -122,12 +161,12 @@ class TableSolver {
     if (progress_) progress_(done, kTableSteps);
   }
 
-  /// From the deflections of all stations on teeth -M .. M under loads on tooth 0.
+  /// From the deflections of tooth 0 under loads on teeth -M .. M, which are those of these teeth under loads on tooth 0.
   std::vector<Eigen::MatrixXd> tables(const Eigen::MatrixXd& deflections) const {
     const Eigen::Index n = task_.grid.size();
-    const auto of_tooth = [&](int m) { return deflections.middleRows((task_.teeth_apart + m) * n, n); };
+    const auto by_tooth = [&](int m) { return deflections.middleCols((task_.teeth_apart + m) * n, n); };
     std::vector<Eigen::MatrixXd> result;
-    for (int m = 0; m <= task_.teeth_apart; ++m) result.push_back(0.5 * (of_tooth(-m) + of_tooth(m).transpose()));
+    for (int m = 0; m <= task_.teeth_apart; ++m) result.push_back(0.5 * (by_tooth(-m).transpose() + by_tooth(m)));
     return result;
   }
 

@@ -20,6 +20,11 @@ struct InfluenceTableTask {
   RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
   StationGrid grid;         ///< as wide as the face
   bool root_stress{false};  ///< the same run also solves for root stress
+  /// Stations that are solved for on the neighbours of tooth 0, from which the tables are interpolated; as wide as the
+  /// face. Empty: those of `grid`.
+  std::optional<StationGrid> neighbour_grid{};
+
+  const StationGrid& grid_of_neighbours() const { return neighbour_grid ? *neighbour_grid : grid; }
 };
 
 /// The task with lengths in normal modules: m_n = 1. Gears that differ in size only become the same.
@@ -47,7 +52,7 @@ inline constexpr int kModelSteps = 2, kTableSteps = 10;
 using TableProgress = std::function<void(int done, int total)>;
 
 /// Solves a gear's finite elements for a load at every station of the grid on tooth 0, which is meshed finely, and
-/// reads the deflections of its neighbours. T_m is the mean of two reciprocal values, the deflection on tooth -m and,
+/// reads the deflections of its neighbours at their own stations. T_m is the mean of two reciprocal values, the deflection on tooth -m and,
 /// transposed, on tooth m. They differ only by the neighbours' coarser mesh.
 ///
 /// Runs on one thread, E = m_n = 1: same input, same bits.

@@ -23,6 +23,8 @@ std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSpars
   for (int row = 0; row < right_sides.rows(); ++row) {
     std::vector<int>& here = columns[supernodes.of_row(supernodes.positions()[row])];
     for (RowSparse::InnerIterator entry(right_sides, row); entry; ++entry) here.push_back(static_cast<int>(entry.col()));
+  }
+  for (std::vector<int>& here : columns) {
     std::ranges::sort(here);
     here.erase(std::unique(here.begin(), here.end()), here.end());
   }

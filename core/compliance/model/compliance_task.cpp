@@ -20,7 +20,8 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
                          .poissons_ratio = (pinion ? task.material.pinion : task.material.wheel).poissons_ratio,
                          .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
                          .grid = station_grid(gear.data.face_width / pair.data.normal_module),
-                         .root_stress = task.root_stress};
+                         .root_stress = task.root_stress,
+                         .neighbour_grid = neighbour_grid(gear.data.face_width / pair.data.normal_module)};
   run.gear.gear.tip_diameter = 2 * gear.tip_radius;
   if (2 * run.teeth_apart + 1 > gear.data.teeth) {
     throw InvalidInput("fidelity.compliance", to_string(task.model),
@@ -88,6 +89,7 @@ InfluenceTableTask task_of_fit(InfluenceTableTask coarse) {
   if (coarse.grid.face_width() <= widest_own_fit) return coarse;
   coarse.gear.gear.face_width = widest_own_fit * coarse.gear.normal_module;
   coarse.grid = station_grid(widest_own_fit);
+  coarse.neighbour_grid = neighbour_grid(widest_own_fit);
   coarse.root_stress = false;
   return coarse;
 }

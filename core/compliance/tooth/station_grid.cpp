@@ -121,4 +121,10 @@ StationGrid station_grid(double face_width, int radii) {
   return {std::move(us), axial_stations(face_width)};
 }
 
+StationGrid neighbour_grid(double face_width) {
+  constexpr double longer = 1.5;
+  constexpr AxialSteps own;
+  return {station_grid(face_width, 5).us(), axial_stations(face_width, {longer * own.first, own.growth, longer * own.largest})};
+}
+
 }  // namespace flankwright

