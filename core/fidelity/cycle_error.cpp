@@ -142,9 +142,8 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
   errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;
   if (!std::isnan(summary.peak_root_stress)) errors.peak_root_stress = unseen_rise(curve(fine, root_of));
   if (!std::isnan(summary.edge_stress)) {
-    const std::vector<double> share = curve(fine, edge_share_of);
     errors.edge_stress = extremes != nullptr ? extremes->unseen_edge_stress : unseen_rise(curve(fine, edge_stress_of));
-    errors.tip_edge_share = std::max(0.0, unseen_rise(share) - (summary.tip_edge_share - *std::ranges::max_element(share)));
+    errors.tip_edge_share = extremes != nullptr ? extremes->unseen_edge_share : unseen_rise(curve(fine, edge_share_of));
   }
   errors.mean_stiffness = stiffness_error(mean_error_by_positions(curve(fine, approach_of)), fine, summary);
   return errors;

@@ -13,13 +13,15 @@ namespace flankwright {
 
 namespace {
 
-constexpr std::size_t curves = 5;  ///< transmission error, the same turned over, contact stress, line load, stress on tip edges (0 without)
+/// Transmission error, the same turned over, contact stress, line load, stress on tip edges, their share of the load (0 without), which is
+/// not sought for itself: it peaks where the stress does.
+constexpr std::size_t curves = 6, sought = 5;
 using Values = std::array<double, curves>;
 
 Values values_of(const LoadedPosition& position) {
   const double te = position.load.transmission_error;
   const double on_edges = position.edge_stress.size() > 0 ? position.edge_stress.maxCoeff() : 0.0;
-  return {te, -te, position.contact_stress.maxCoeff(), position.peak_load.maxCoeff(), on_edges};
+  return {te, -te, position.contact_stress.maxCoeff(), position.peak_load.maxCoeff(), on_edges, std::fmax(0.0, position.tip_edge_share)};
 }
 
 /// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
@@ -47,7 +49,7 @@ class Search {
     CycleExtremes found;
     std::set<double> probes(settings_.first.begin(), settings_.first.end());
     while (found.looked_at < settings_.most) {
-      for (std::size_t c = 0; c < curves; ++c) {
+      for (std::size_t c = 0; c < sought; ++c) {
         const CurveRise promise = highest_promise(c);
         if (promise.height > best(c) + slack_[c]) probes.insert(promise.x);
       }
@@ -74,6 +76,7 @@ class Search {
     unseen(Figure::PeakContactStress) = rise(2);
     unseen(Figure::PeakLineLoad) = rise(3);
     found.unseen_edge_stress = rise(4);
+    found.unseen_edge_share = rise(5);
     return found;
   }
 
@@ -107,7 +110,7 @@ class Search {
   const ExtremeSearch& settings_;
   std::map<double, Values> known_;  ///< by phase
   std::set<double> even_;           ///< phases of the cycle itself
-  Values slack_{};
+  std::array<double, sought> slack_{};
 };
 
 }  // namespace

@@ -10,17 +10,19 @@ namespace flankwright {
 struct ExtremeSearch {
   /// Located where no interval between positions looks as if the extreme rose by more than this [-], > 0: of the peak to peak (at least
   /// quiet_share of the mean deflection) for the transmission error, of the peak for stress and line load, of the peak contact stress for the stress on tip edges.
+  /// Their share of the load is read where these are sought.
   double tolerance{2e-3};
   int most{32};                 ///< positions looked at before the search gives up, >= 1
   std::vector<double> first{};  ///< positions looked at before all others [base pitches], 0 .. 1, see tip_edge_passages()
 };
 
 /// A cycle's extremes between its positions: each of these positions has the largest or smallest transmission error,
-/// the largest contact stress, the largest line load or the largest stress on tip edges of all that were solved.
+/// the largest contact stress, the largest line load, the largest stress on tip edges or their largest share of the load of all that were solved.
 struct CycleExtremes {
   std::vector<double> phases;      ///< [base pitches], rising; empty where the cycle's own positions have all extremes
   PerFigure unseen{};              ///< by how much extremes may still be larger, in the figures' units; 0 for what is no extreme
   double unseen_edge_stress{0.0};  ///< likewise of the stress on tip edges [MPa]
+  double unseen_edge_share{0.0};   ///< likewise of their share of the load [-]
   int looked_at{0};                ///< positions solved
 };
 

@@ -309,7 +309,7 @@ void StudyRun::hold_against_finer(std::size_t first) {
     const double error = headline_error(points, loaded.summary, loaded.cycle);
     // Half the intervals may meet hardly anything of a narrow contact on a tip edge. It counts beside the peak that it may come to exceed.
     const double on_edges = points.edge_stress / loaded.summary.peak_contact_stress;
-    if (std::isgreater(error, AutomaticResolution{}.accuracy) || std::isgreater(on_edges, AutomaticResolution{}.accuracy))
+    if (std::isgreater(std::fmax(std::fmax(error, on_edges), points.tip_edge_share), AutomaticResolution{}.accuracy))
       wide[placement_of(loaded.condition, loaded.torque)].push_back(&loaded);
   }
   Quadrature quadrature = results_.study.fidelity.quadrature;
@@ -358,6 +358,7 @@ void StudyRun::analyse() {
     forget_loaded();
     analyse_loaded(scenes);
   }
+  hold_against_finer(0);
   results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", clock.seconds()});
   rate();
 }

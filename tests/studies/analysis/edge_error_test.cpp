@@ -1,0 +1,50 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/studies/study_texts.hpp"
+
+using namespace flankwright::studies;
+using study_texts::results_of;
+
+namespace {
+
+/// A misaligned spur pair with little relief: its tip edges carry a short contact that half the intervals hardly meet.
+const char* const on_its_edges = R"(
+task = "analyse"
+[pair]
+normal_module = 3
+[pinion]
+teeth = 25
+face_width = 20
+[wheel]
+teeth = 50
+face_width = 20
+[pinion.modification]
+tip_relief = { amount = 6, height = 1.0 }
+lead_crowning = 4
+[wheel.modification]
+tip_relief = { amount = 6, height = 1.0 }
+[misalignment]
+mesh_misalignment = 8
+[load]
+torque = [60, 100, 200]
+[fidelity]
+effect_sizes = "off"
+compliance = "thin_slice"
+)";
+
+}  // namespace
+
+TEST_CASE("An analysis knows the load on a tip edge to within 2 per cent of the whole, and the error it states holds", "[studies][analysis][edge]") {
+  const Json shown = results_of(on_its_edges);
+  const Json finer = results_of(on_its_edges, {{"fidelity.quadrature", "{ rule = \"graded\", intervals = 48 }"}, {"cycle.positions", "128"}});
+  REQUIRE(shown.at("loaded").size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json &ours = shown.at("loaded")[i].at("summary"), &theirs = finer.at("loaded")[i].at("summary");
+    const double share = ours.at("tip_edge_share"), error = ours.at("tip_edge_share_error");
+    CAPTURE(i, share, error);
+    CHECK(share > 0.03);
+    CHECK(error < 0.02);  // twice the accuracy that an analysis is refined for
+    CHECK(std::abs(share - theirs.at("tip_edge_share").get<double>()) <= error + theirs.at("tip_edge_share_error").get<double>());
+  }
+}
