@@ -11,11 +11,29 @@ namespace flankwright::studies {
 std::string unit_note(const StudyResults& results) {
   if (!results.shafts || !results.shafts->has_unit()) return {};
   constexpr double out_of_contact = 2.0;  // face_load_factor above this: the line load would be negative at one end
+  constexpr double in_balance =
+      1e-6;  // residual of a shaft's equilibrium at most: round-off of supports as far apart in stiffness as units have them
+  constexpr double still_small = 0.1;  // misalignment over the module at most: the motion of the flanks is linear in it
   double worst = out_of_contact;
   std::string note;
   for (const LoadedResult& loaded : results.loaded) {
     const MeshModel& model = results.models[loaded.model];
-    for (const MeshState& mesh : shafts_under(*results.shafts, model, loaded.torque).state(loaded.torque, model.axial_offset).meshes) {
+    const UnitState state = shafts_under(*results.shafts, model, loaded.torque).state(loaded.torque, model.axial_offset);
+    for (const ShaftState& shaft : state.shafts) {
+      if (shaft.residual <= in_balance) continue;
+      return fmt::format(
+          "the forces on the unit's shaft \"{}\" do not balance, by {:.2g} of the largest, in scene \"{}\" at {:.6g} N·m: supports of the unit are too far apart in "
+          "stiffness, or too close in place, for what hangs on them to be known",
+          shaft.name, shaft.residual, loaded.scene, loaded.torque / units::newton_metre);
+    }
+    const double module = model.pair.data.normal_module;
+    if (std::abs(state.mesh_misalignment) > still_small * module) {
+      return fmt::format(
+          "the unit's shafts misalign the pair by {:.3g} mm in scene \"{}\" at {:.6g} N·m, which is no small motion of teeth of {:.3g} mm module: a "
+          "shaft, a bearing or the housing is given too soft",
+          std::abs(state.mesh_misalignment), loaded.scene, loaded.torque / units::newton_metre, module);
+    }
+    for (const MeshState& mesh : state.meshes) {
       if (!(mesh.face_load_factor > worst)) continue;
       worst = mesh.face_load_factor;
       note = fmt::format(

@@ -6,7 +6,8 @@
 
 namespace flankwright::studies {
 
-/// Which other mesh of the unit is out of contact at one end of its face, in the load case where it is most, see MeshState::face_load_factor; empty: none.
+/// What makes figures of the unit doubtful, the first of: forces on a shaft that do not balance, a misalignment of the pair that is no small motion, and the other mesh
+/// that is out of contact at one end of its face, in the load case where it is most, see MeshState::face_load_factor. Empty: nothing.
 std::string unit_note(const StudyResults& results);
 
 }  // namespace flankwright::studies

@@ -83,7 +83,7 @@ class Checking : Findings {
       require(mesh.normal_module > 0.0, table + "normal_module", mesh.normal_module, "above 0 mm");
       require(!std::isnan(mesh.angle), table + "angle", mesh.angle, "a number");
       require(std::isnan(mesh.stiffness) || mesh.stiffness > 0.0, table + "stiffness", mesh.stiffness, "above 0");
-      require(!mesh.resists_tilting() || mesh.face_width() > 0.0, table + "stiffness", mesh.stiffness,
+      require(!mesh.resists_tilting() || mesh.face_width() > 0.0, table + "stiffness", in_words(mesh.stiffness / 1e3) + " N/(mm um)",
               "none without face_width_1 and face_width_2, along which the teeth hold the shafts against tilting");
       if (!empty()) return;
       const MeshGeometry of = geometry_of(mesh);
@@ -161,6 +161,8 @@ class Checking : Findings {
       require(places.emplace(joint.outer_shaft, joint.outer_position).second, table + "outer_position", joint.outer_position,
               "a position of its own");
       require(joint.bearing.radial_stiffness > 0.0, table + "radial_stiffness", joint.bearing.radial_stiffness, "above 0");
+      require(joint.bearing.axial_stiffness >= 0.0, table + "axial_stiffness", joint.bearing.axial_stiffness, "at least 0");
+      require(joint.bearing.tilting_stiffness >= 0.0, table + "tilting_stiffness", joint.bearing.tilting_stiffness, "at least 0");
       for (const InvalidInput& problem : find_yielding_problems(joint.bearing))
         require(false, table + problem.field(), problem.value(), problem.allowed());
     }
@@ -184,9 +186,10 @@ class Checking : Findings {
     require(k.rows() == size && k.cols() == size, "unit.housing.stiffness", std::to_string(k.size()) + " numbers",
             std::to_string(size * size) + " numbers: a row for x, y and z of each of " + std::to_string(housing.seats.size()) + " seats");
     if (!empty()) return;
-    constexpr double round_off = 1e-6;  // |k_ij - k_ji| at most this part of the largest entry: matrices come rounded
-    require((k - k.transpose()).cwiseAbs().maxCoeff() <= round_off * k.cwiseAbs().maxCoeff(), "unit.housing.stiffness", "not symmetric",
-            "a symmetric matrix");
+    constexpr double round_off = 1e-6;  // |k_ij - k_ji| at most this part of sqrt(k_ii k_jj): matrices come rounded
+    const Eigen::ArrayXd scale = k.diagonal().array().abs().sqrt();
+    const bool is_symmetric = ((k - k.transpose()).array().abs() <= round_off * (scale.matrix() * scale.matrix().transpose()).array()).all();
+    require(is_symmetric, "unit.housing.stiffness", "not symmetric", "a symmetric matrix");
     require(Eigen::LLT<Eigen::MatrixXd>(k).info() == Eigen::Success, "unit.housing.stiffness", "not positive definite",
             "a positive definite matrix: no motion of the seats without force");
   }

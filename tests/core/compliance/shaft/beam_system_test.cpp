@@ -107,6 +107,22 @@ TEST_CASE("Supports in excess share the load by their stiffness", "[core][compli
   }
 }
 
+TEST_CASE("A support as soft as none leaves a shaft to the others", "[core][compliance][shaft]") {
+  const double softness = GENERATE(1e3, 1e12, 1e100);  // mm/N, and by the shaft's length and square of it where it holds a turn
+  const BeamSystem alone({uniform_piece(L)}, two_bearings());
+  std::vector<BeamSupport> supports = two_bearings();
+  hold(supports, 0.0, {}, {x, y}, softness);
+  hold(supports, 0.3 * L, {x}, {}, softness);
+  const BeamSystem beside({uniform_piece(L)}, supports);
+  const BeamLoad load{0.7 * L, x + y, none};
+  const double own = between(alone, load, load);
+  // The soft supports take their share of the load, below own / softness.
+  CHECK(between(beside, load, load) == Approx(own).epsilon(kBeamRoundOff + L * L * own / softness));
+  const Eigen::MatrixXd forces = beside.reactions(std::vector{load});
+  const Eigen::MatrixXd expected = alone.reactions(std::vector{load});
+  CHECK((forces.topRows(expected.rows()) - expected).cwiseAbs().maxCoeff() <= kBeamRoundOff + L * L * own / softness);
+}
+
 TEST_CASE("Loads that act together are the sum of their parts", "[core][compliance][shaft]") {
   const BeamSystem beam({uniform_piece(100), slender(80), uniform_piece(120)}, two_bearings(30, 280));
   const std::vector<BeamLoad> parts{{40, {1, -2, 0.3}, none}, {90, none, {20, 5, 0}}, {150, none, {0, 0, 8}},

@@ -1,0 +1,17 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
+
+using namespace flankwright::studies;
+
+TEST_CASE("A unit so soft that its misalignment is no small motion says so, and a stiff one does not", "[studies][analysis][unit]") {
+  const auto is_said = [](const std::string& stiffness) {  // of one bearing [N/um]
+    const Json results = study_texts::results_of(small::unit_pair() + small::unit(), {{"pinion.shaft.bearings.0.radial_stiffness", stiffness}});
+    return std::ranges::any_of(results.at("notes"),
+                               [](const Json& note) { return note.get<std::string>().find("misalign the pair by") != std::string::npos; });
+  };
+  CHECK(!is_said("800"));
+  CHECK(is_said("0.01"));
+}
