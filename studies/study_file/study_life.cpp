@@ -13,6 +13,9 @@ namespace flankwright::studies {
 
 namespace {
 
+/// Problems after which no further load is looked at: long files tend to have the same one in every row.
+constexpr std::size_t most_said = 50;
+
 constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 constexpr double notch_of_test_gear = 2.0;  // Y_ST [ISO 6336-3]: sigma_FE = sigma_Flim Y_ST
 
@@ -65,7 +68,9 @@ void read_source(StudyReading& reading, const Match& match) {
   try {
     int index = 0;
     if (has_signal) return read_signal(reading, path);
-    for (const SpectrumRow& row : read_spectrum_file(path)) read_row(reading, path, row, index++);
+    for (const SpectrumRow& row : read_spectrum_file(path)) {
+      if (reading.problems.size() < most_said) read_row(reading, path, row, index++);
+    }
   } catch (const StudyErrors& errors) {
     for (const StudyProblem& problem : errors.problems()) {
       if (problem.line > 0) {
@@ -187,7 +192,7 @@ void read_spectrum(StudyReading& reading) {
   torques.clear();
   for (std::size_t k = 0; k < bins.size(); ++k) {
     if (std::isnan(bins[k].torque)) continue;  // refused where it is read
-    if (!reading.builder.study.signal) check_bin(reading, bins[k], static_cast<int>(k));
+    if (!reading.builder.study.signal && reading.problems.size() < most_said) check_bin(reading, bins[k], static_cast<int>(k));
     torques.push_back(std::max(0.0, bins[k].torque));
   }
   if (torques.empty()) torques = {0.0};

@@ -133,6 +133,11 @@ class ShaftReading {
     const auto finite = [](double stiffness) { return stiffness < stiffest_bearing ? stiffness : std::numeric_limits<double>::infinity(); };
     const auto radial = number(bearing, "radial_stiffness", Dimension::Stiffness), axial = number(bearing, "axial_stiffness", Dimension::Stiffness);
     if (reading_.word(&bearing, "radial_force_absorption") == "false") throw LeftOut{Reading::name_of(bearing) + " does not hold it radially"};
+    const auto tilting = number(bearing, "bending_stiffness", Dimension::TiltingStiffness);
+    for (const auto& [stiffness, attribute] :
+         {std::pair{radial, "radial_stiffness"}, std::pair{axial, "axial_stiffness"}, std::pair{tilting, "bending_stiffness"}}) {
+      if (stiffness && *stiffness < 0.0) throw LeftOut{Reading::name_of(bearing) + " has a " + attribute + " below 0"};
+    }
     if (radial && *radial > 0.0) {
       held.radial_stiffness = finite(*radial);
     } else {
@@ -140,7 +145,7 @@ class ShaftReading {
     }
     if (axial) held.axial_stiffness = finite(*axial);
     take_absorption(bearing, held);
-    held.tilting_stiffness = number(bearing, "bending_stiffness", Dimension::TiltingStiffness).value_or(0.0);
+    held.tilting_stiffness = tilting.value_or(0.0);
     result_.data.bearings.push_back(held);
     remark("bearings", bearing);
   }

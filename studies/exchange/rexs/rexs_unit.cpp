@@ -124,6 +124,19 @@ class UnitReading {
     return found && found->size() == 3 ? Vector3d((*found)[0], (*found)[1], (*found)[2]) : fallback;
   }
 
+  /// The direction that loads are counted from, the file's or z.
+  /// @param u  the shaft's axis, a unit vector
+  Vector3d across(const Component& shaft, const Vector3d& u) {
+    const auto given = reading_.numbers(&shaft, "w_axis_vector", Dimension::Length);
+    if (!given) return Vector3d::UnitZ();
+    const Vector3d w = given->size() == 3 ? Vector3d((*given)[0], (*given)[1], (*given)[2]) : Vector3d::Zero();
+    constexpr double right_angle = 1e-3;  // |cos| of the angle between both at most: 0.06 deg
+    if (!(w.norm() > 0.0) || std::abs(w.normalized().dot(u)) > right_angle) {
+      throw LeftOut{Reading::name_of(shaft) + " has a w_axis_vector that is no direction across its axis"};
+    }
+    return w.normalized();
+  }
+
   void read_shafts() {
     for (const Component& component : reading_.model().components) {
       if (component.type != "shaft" || !part_.shafts.contains(component.id)) continue;
@@ -187,7 +200,7 @@ class UnitReading {
   void read_loads(const Component& shaft) {
     const BareShaft& bare = shafts_.at(shaft.id);
     const Vector3d u = bare.against_z ? Vector3d(-z_) : z_;
-    const Vector3d w = vector(shaft, "w_axis_vector", Vector3d::UnitZ()).normalized(), v = w.cross(u);
+    const Vector3d w = across(shaft, u), v = w.cross(u);
     for (const Component* load : reading_.related(shaft, {"external_load"})) {
       const auto place = reading_.number(load, "u_coordinate_on_shaft", Dimension::Length);
       if (!place) throw LeftOut{Reading::name_of(*load) + " has no u_coordinate_on_shaft"};

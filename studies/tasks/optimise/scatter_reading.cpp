@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <set>
 
 #include "core/gear/flank_tolerances.hpp"
 #include "optimize/sampling/sobol_sequence.hpp"
@@ -53,12 +54,24 @@ void check_over_draws(StudyReading& reading, const OutputConstraint& bound) {
   }
 }
 
+/// Each class is searched for once.
+void check_classes(StudyReading& reading) {
+  const std::string path = std::string(scatter_name) + ".classes";
+  const auto* match = reading.find(path);
+  if (match == nullptr || !match->node->is_array()) return;
+  const std::vector<int>& classes = reading.builder.study.optimise.scatter.classes;
+  const bool repeats = std::set<int>(classes.begin(), classes.end()).size() < classes.size();
+  const bool has_parts = std::ranges::any_of(*match->node->as_array(), [](const toml::node& entry) { return !entry.is_integer(); });
+  if (repeats || has_parts) reading.refuse_key(path, "allowed are integers 1 .. 11, each once");
+}
+
 void check_task(StudyReading& reading) {
   const OptimiseTable& optimise = reading.builder.study.optimise;
   const auto refuse = [&](const std::string& path, const char* allowed) { reading.refuse_key(path, allowed); };
   if (!optimise.later_objectives.empty()) refuse("optimise.objective", "one objective with optimise.scatter, no list");
   if (!optimise.pareto_objectives.empty()) refuse("optimise.pareto.objectives", "none with optimise.scatter");
   for (const OutputConstraint& bound : optimise.constraints) check_over_draws(reading, bound);
+  check_classes(reading);
   const ScatterTable& asked = optimise.scatter;
   if (asked.predicted_from > 0 && (asked.predicted_seed == asked.seed || (asked.fresh > 0 && asked.predicted_seed == asked.fresh_seed))) {
     refuse("optimise.scatter.predicted_seed", "makes the same draws as another seed: allowed is another than optimise.scatter.seed and fresh_seed");

@@ -139,6 +139,11 @@ TEST_CASE("A unit that a study cannot describe is left out with its reason, and 
     CHECK(parse_study(stage.study.text, "stage").unit.empty());
     CHECK_THAT(stage.study.text, Contains("the unit around the stage: not taken, shaft 4 is not parallel"));
   }
+  // Loads counted from no direction.
+  const std::string axis = "<attribute id=\"w_axis_vector\" unit=\"mm\"><array><c>0</c><c>0</c>";
+  const rexs::UnitImport undirected = import_of(study_texts::replaced(unit_file(), axis + "<c>1</c>", axis + "<c>0</c>"));
+  REQUIRE(undirected.stages.size() == 2);
+  CHECK_THAT(undirected.stages[0].study.text, Contains("has a w_axis_vector that is no direction across its axis"));
 }
 
 TEST_CASE("Two pinions on one wheel are a unit, and both load the wheel", "[studies][rexs][import][unit]") {

@@ -61,6 +61,10 @@ TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nfresh = 10\nfresh_seed = 1\n").allowed, Contains("same draws"));
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\npredicted_seed = 1\n").allowed,
              Contains("another than optimise.scatter.seed"));
+  for (const char* classes : {"[6, 6]", "[6.5]"}) {
+    CHECK_THAT(problem_of(std::string("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nclasses = ") + classes + "\n").allowed,
+               Contains("each once"));
+  }
   const auto limited = [](const std::string& limit) {
     return "[lubricant]\nviscosity_40 = 220\nviscosity_100 = 19\ntemperature = 80\nroughness = 0.5\n[optimise.scatter]\ndraws = 8\niso_1328_class = 6\n[optimise.constraints]\n" +
            limit;
