@@ -13,13 +13,13 @@ const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 const COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"];
 const count_words = (count) => COUNTS[count] ?? String(count);
 
-/** The limit that a design ("before", "after") exceeds by most {name, unit, seen, limit, sense, excess}, `seen` naming its largest or least value; null where it keeps all. */
-function most_exceeded(optimise, design) {
+/** The limits that a design ("before", "after") exceeds {name, unit, seen, limit, sense, excess}, `seen` naming its largest or least value; the most exceeded first. */
+function exceeded_limits(optimise, design) {
   const broken = constraint_rows(optimise, design).filter((row) => row.met === false && is_number(row.value)).map((row) => {
     const is_above = is_number(row.max) && row.value > row.max, limit = is_above ? row.max : row.min, seen = is_above ? "value" : "least";
     return { ...row, seen, limit, sense: is_above ? "at most" : "at least", excess: Math.abs(row[seen] - limit) / Math.abs(limit || 1) };
   });
-  return broken.sort((a, b) => b.excess - a.excess)[0] ?? null;
+  return broken.sort((a, b) => b.excess - a.excess);
 }
 
 /** "peak contact stress to at most 1500 MPa: 8880 → 1630 MPa" */
@@ -38,8 +38,11 @@ function limit_words({ name, unit, seen, limit, sense }, optimise) {
 function optimise_headline(optimise) {
   const scatter = scatter_of(optimise);
   if (scatter) return scatter_headline(optimise, scatter);
-  const exceeded = most_exceeded(optimise, "after"), exceeded_before = most_exceeded(optimise, "before");
-  if (exceeded) return `No design found keeps ${limit_words(exceeded, optimise)}`;
+  const exceeded = exceeded_limits(optimise, "after"), [exceeded_before] = exceeded_limits(optimise, "before");
+  if (exceeded.length > 0) {
+    const further = exceeded.slice(1).map(({ name }) => words(name));
+    return `No design found keeps ${limit_words(exceeded[0], optimise)}${further.length > 0 ? `, nor the limit of ${further.join(", nor of ")}` : ""}`;
+  }
   const steep = list(optimise.grinding_limits).map(record).find(({ state }) => state === "exceeded");
   if (steep) return `No design found keeps the ${steep.name} to ${fmt(steep.limit)} ${pretty_unit(steep.unit)}: ${fmt(steep.value, 3)} ${pretty_unit(steep.unit)}`;
   const from = record(optimise.before).objective, to = record(optimise.after).objective;
