@@ -25,6 +25,10 @@ void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& mor
   }
 }
 
+/// A design that exceeds a constraint by more than this part of its limit, where a search was stopped, has no multipliers to look for: thousands of rows are
+/// broken there, and none balances the objective.
+constexpr double far_outside = 0.1;
+
 /// The whole run, its books and what is left of the budget.
 class DesignRun {
  public:
@@ -39,7 +43,8 @@ class DesignRun {
     restore();
     DesignProblem last = later_objectives();
     // A design that exceeds the constraints is no optimum of the objective.
-    if (result_.status != SolverStatus::Infeasible) result_.optimality = first_order_optimality(last, x_);
+    const bool is_near_feasible = problem_.violation(problem_.analyse(x_, false)) <= far_outside;
+    if (result_.status != SolverStatus::Infeasible && is_near_feasible) result_.optimality = first_order_optimality(last, x_);
     judge_stall();
     result_.gradient_evaluations = uses_gradients(options_.solver.name) ? result_.evaluations : 0;
     result_.after = report_design(problem_, problem_.analyse(x_, false));

@@ -3,6 +3,7 @@
 #include <Eigen/Jacobi>
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <vector>
 
 namespace flankwright {
@@ -106,25 +107,35 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen:
   const Eigen::VectorXd least = descent * b.norm() * (A.colwise().squaredNorm().transpose() + pull.cwiseAbs2()).cwiseSqrt();
   ColumnFactor factor(A, pull);
   const std::vector<Eigen::Index>& in = factor.columns();
-  std::vector<bool> barred(static_cast<std::size_t>(A.cols()), false);  // entered in vain; free again after any progress
+  // Progress is a sum of squares that falls by more than this part of |b|^2, its round-off. Columns that nearly depend on each other
+  // would otherwise enter and leave in turn.
+  constexpr double progress = 1e-15;
+  double lowest = std::numeric_limits<double>::infinity();
+  std::vector<bool> barred(static_cast<std::size_t>(A.cols()), false);  // has entered since the last progress
   const Eigen::Index most_steps = 10 * A.cols() + 10;                   // Lawson and Hanson met 3 n at most
   for (Eigen::Index step = 0; step < most_steps; ++step) {
-    const Eigen::VectorXd slope = A.transpose() * (b - A * y) - pull.cwiseAbs2().cwiseProduct(y);
+    const Eigen::VectorXd rest = b - A * y;
+    const double squares = rest.squaredNorm() + pull.cwiseProduct(y).squaredNorm();
+    if (squares < lowest - progress * b.squaredNorm()) {
+      lowest = squares;
+      std::fill(barred.begin(), barred.end(), false);
+    }
+    const Eigen::VectorXd slope = A.transpose() * rest - pull.cwiseAbs2().cwiseProduct(y);
+    std::vector<bool> is_out(static_cast<std::size_t>(A.cols()), true);
+    for (const Eigen::Index j : in) is_out[static_cast<std::size_t>(j)] = false;
     Eigen::Index entering = -1;
     for (Eigen::Index j = 0; j < A.cols(); ++j) {
-      const bool is_in = std::find(in.begin(), in.end(), j) != in.end();
-      if (is_in || barred[static_cast<std::size_t>(j)] || slope[j] <= least[j]) continue;
-      if (entering < 0 || slope[j] > slope[entering]) entering = j;
+      const bool may_enter = is_out[static_cast<std::size_t>(j)] && !barred[static_cast<std::size_t>(j)] && slope[j] > least[j];
+      if (may_enter && (entering < 0 || slope[j] > slope[entering])) entering = j;
     }
     if (entering < 0) return y;
+    barred[static_cast<std::size_t>(entering)] = true;
     const bool independent = factor.add(entering);
     Eigen::VectorXd z = factor.solve(b);
     if (!independent || z[entering] <= 0.0) {  // depends on those that are in
       if (independent) factor.remove(in.size() - 1);
-      barred[static_cast<std::size_t>(entering)] = true;
       continue;
     }
-    std::fill(barred.begin(), barred.end(), false);
     const auto negative = [&](Eigen::Index j) { return z[j] <= 0.0; };
     while (std::any_of(in.begin(), in.end(), negative)) {
       double share = 1.0;  // of the way to z before the first turns negative
