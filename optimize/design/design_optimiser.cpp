@@ -25,8 +25,8 @@ void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& mor
   }
 }
 
-/// A design that exceeds a constraint by more than this part of its limit, where a search was stopped, has no multipliers to look for: thousands of rows are
-/// broken there, and none balances the objective.
+/// No multipliers are looked for where a search was stopped at a design that exceeds a constraint by more than this part of its limit. Thousands of rows may
+/// be broken there, and such a design is no optimum.
 constexpr double far_outside = 0.1;
 
 /// The whole run, its books and what is left of the budget.

@@ -11,9 +11,8 @@ namespace flankwright::studies {
 std::string unit_note(const StudyResults& results) {
   if (!results.shafts || !results.shafts->has_unit()) return {};
   constexpr double out_of_contact = 2.0;  // face_load_factor above this: the line load would be negative at one end
-  constexpr double in_balance =
-      1e-6;  // residual of a shaft's equilibrium at most: round-off of supports as far apart in stiffness as units have them
-  constexpr double still_small = 0.1;  // misalignment over the module at most: the motion of the flanks is linear in it
+  constexpr double in_balance = 1e-6;     // residual of a shaft's equilibrium at most: sound units have some 1e-16
+  constexpr double still_small = 0.1;     // misalignment over the module at most: the motion of the flanks is linear in it
   double worst = out_of_contact;
   std::string note;
   for (const LoadedResult& loaded : results.loaded) {

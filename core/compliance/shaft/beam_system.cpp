@@ -86,7 +86,7 @@ BeamSystem::BeamSystem(std::vector<std::vector<BeamPiece>> beams, std::vector<Be
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n + rigid, n + rigid);
   matrix.topRows(n) = rows;
   matrix.bottomLeftCorner(rigid, n) = rows.rightCols(rigid).transpose();
-  // A support a million times softer than the shafts has a pivot as much larger than all others, which are no zeros beside it.
+  // A very soft support has a very large pivot. The others are small beside it, but they are not zero.
   released_.setThreshold(0.0);
   released_.compute(matrix);
   assert(released_.isInvertible());
