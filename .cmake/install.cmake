@@ -19,9 +19,7 @@ install(FILES .cmake/flankwright-config.cmake core/compliance/fitted/find_ceres.
 
 install(TARGETS flankwright RUNTIME COMPONENT program)
 install(DIRECTORY studies/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN pictures EXCLUDE)
-install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-install(FILES studies/README.md studies/keys.md studies/results.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/studies COMPONENT program)
-install(FILES core/notation.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/core COMPONENT program)
+install(FILES CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)  # the pages are installed in HTML, below
 
 # The Python package, where Debian's Python looks for it below /usr; below other prefixes PYTHONPATH leads there.
 if(FLANKWRIGHT_HAS_PYTHON)

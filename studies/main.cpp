@@ -99,7 +99,7 @@ int dispatch(int argc, char** argv) {
       "  flankwright new analyse > pump.toml                         one pair as it runs\n"
       "  flankwright new optimise > pump.toml                        modifications that hold over many conditions\n"
       "  flankwright new slurm > pump.sbatch                         a job script for the shards of a sweep");
-  make->add_option("kind", kind, "analyse, optimise, sweep, accuracy or fit; slurm: a job script for the shards of a sweep")->required();
+  make->add_option("kind", kind, "analyse, optimise, sweep, accuracy, fit or geometry; slurm: a job script for the shards of a sweep")->required();
   CLI::App* keys = app.add_subcommand("keys", "print the reference of all keys of a study file, in Markdown");
   keys->footer(
       "Examples:\n"
@@ -126,6 +126,8 @@ int dispatch(int argc, char** argv) {
       "  flankwright test pump.toml valve.toml");
   test->add_option("paths", paths, "study files or folders of them")->required();
   test->add_option("--threads", threads, "threads to use")->check(CLI::Range(1, 1024));
+  bool accept = false;
+  test->add_flag("--accept", accept, "write today's values into a copy of each study, FILE.accepted");
   CLI::App* library = app.add_subcommand("library", "make the library of tooth compliance fits anew; goes on where FILE ends");
   library->footer(
       "Example:\n"
@@ -222,7 +224,7 @@ int dispatch(int argc, char** argv) {
   }
   if (import->parsed()) return import_command(from);
   if (exporting->parsed()) return export_command(to);
-  return test_command(paths);
+  return test_command(paths, accept);
 }
 
 }  // namespace

@@ -31,17 +31,18 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 /// How far a cycle's figures are from those of infinitely many points and positions, by an embedded comparison: the same contact
 /// problem with half the intervals at every second position.
 ///
-/// - Points: with d the difference of f_t at a position, fine less coarse, the mean is off by |mean d|/2 + rms(d - mean d)/3, as positions may make up for
-///   each other by chance. The error that remains in the shape
-///   comes from kinks of the load between points. As a kink wanders from point to point its error runs from none to J h^2/8 (J the change of
-///   slope, h the distance of the points), so that d covers four times the range by which the fine curve is off. A third is taken, because some of the
-///   error converges more slowly: the peak to peak is off by (max d - min d)/3. Harmonic k is off by (|DFT_k d| + rms(d - mean d))/3, because a single
-///   order may be small by chance. Peaks of root stress are off by half of what changes. The mean stiffness is off as the mean deflection is. Peaks of stress and load, which lie at the ends of lines more
-///   often than not,
-///   converge with order one at least: they are off by the largest difference of both peaks around any position that comes within a tenth
-///   of the peak, a sixteenth of the cycle to either side. Position by position they would differ by more: kinks of a linear relief wander between points.
+/// - Points, with d the difference of f_t at a position, fine less coarse:
+///   - The mean is off by |mean d|/2 + rms(d - mean d)/3. The second part is there because positions may make up for each other by chance.
+///   - What remains in the shape comes from kinks of the load between points. As a kink wanders from point to point its error runs from none to J h^2/8,
+///     with J the change of slope and h the distance of the points, so that d covers four times the range by which the fine curve is off. A third is
+///     taken, because some of the error converges more slowly. The peak to peak is off by (max d - min d)/3, harmonic k by
+///     (|DFT_k d| + rms(d - mean d))/3: a single order may be small by chance.
+///   - Peaks of root stress are off by half of what changes, the mean stiffness as the mean deflection is.
+///   - Peaks of stress and load mostly lie at the ends of lines and converge with order one at least. They are off by the largest difference of both
+///     peaks around any position that comes within a tenth of the peak, a sixteenth of the cycle to either side. Position by position they would differ
+///     by more: kinks of a linear relief wander between points.
 /// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second
-///   position changes, of the mean at least a third of the highest order that they resolve, which does not hang on where positions meet the curve. Extremes are off by CycleExtremes::unseen after a search, else by unseen_rise().
+///   position changes, of the mean at least a third of the highest order that they resolve, which does not depend on where positions meet the curve. Extremes are off by CycleExtremes::unseen after a search, else by unseen_rise().
 ///
 /// @param fine      evenly spaced, with its summary
 /// @param coarse    at coarse_phases() of it, half the intervals

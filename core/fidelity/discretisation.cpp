@@ -132,7 +132,6 @@ class DiscretisationRun {
       ResolutionLevel made{intervals, positions, figures_of(model, cycle, resolved.summary)};
       if (search_.choose_intervals) made.quadrature_error = error_shares(resolved.error_parts.points, made.figures);
       if (search_.choose_positions) made.position_error = error_shares(by_positions, made.figures);
-      made.extremes_sought = seek;
       return made;
     };
     ResolutionLevel made = level(false);

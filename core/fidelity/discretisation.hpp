@@ -24,7 +24,6 @@ struct ResolutionLevel {
   int intervals{0}, positions{0};
   CycleFigures figures;                            ///< with extremes between the positions where they were sought
   PerFigure quadrature_error{}, position_error{};  ///< estimated shares, as figure_errors() counts them
-  bool extremes_sought{false};                     ///< false: the errors alone show that the level does not suffice
   PerFigure error() const;                         ///< their sum
 };
 

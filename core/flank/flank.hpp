@@ -166,7 +166,8 @@ FlankThroughPoint<Scalar> rotation_through(const Flank& flank, const Point3<Scal
 /// @throws InvalidInput "parabolic_te" where no flank has that parabola; "grinding_wheel_diameter" for a form wheel that does not fit
 Flank make_flank(const GearPair& pair, Member member, const Modification& modification, const ManufacturingError& error);
 
-/// Derivative of the deviation of a flank of make_flank() by one parameter, of what is removed or of its process, with what the process makes of it.
+/// Derivative of a flank's deviation, as make_flank() has it, by one parameter of its modification or of its process. What the process does to lead
+/// modifications is in it.
 class GroundDerivative {
  public:
   using Kind = std::variant<RemovalDerivative, CompensationDerivative>;

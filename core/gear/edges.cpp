@@ -142,12 +142,13 @@ std::vector<InvalidInput> find_edge_problems(const Gear& gear, double form_radiu
                      "above 0 and below " + in_words(steepest / units::deg) + " deg, where the flat would go on from the flank at the obtuse end");
   }
   const double face_width = gear.data.face_width, taken = taken_off_face(gear, true) + taken_off_face(gear, false);
-  if (!(taken < face_width)) {
+  constexpr double least_face = 0.01;  // of the face width, which is left between both ends
+  if (!(taken <= (1.0 - least_face) * face_width)) {
     const bool by_chamfer = end.amount > 0.0;
     const double given = by_chamfer ? end.amount : gear.data.end_rounding;
-    const double largest = by_chamfer ? 0.5 * (face_width - taken) + end.amount : given * face_width / taken;
+    const double most = (1.0 - least_face) * face_width, largest = by_chamfer ? 0.5 * (most - taken) + end.amount : given * most / taken;
     problems.require(false, by_chamfer ? end_name + ".amount" : name + ".edges.end_rounding", given,
-                     up_to(largest) + ", which leaves some of the face width of " + in_words(face_width) + " mm between both ends");
+                     up_to(largest) + ", which leaves a hundredth of the face width of " + in_words(face_width) + " mm between both ends");
   }
   return std::move(problems.found);
 }

@@ -56,6 +56,11 @@ Lubricant::Property Lubricant::kinematic_viscosity(double temperature_C) const {
   return {sum - 0.7, sum * std::log(10.0) * once * B / T};
 }
 
+bool Lubricant::has_viscosity_at(double temperature_C) const {
+  const double viscosity = kinematic_viscosity(temperature_C).value;
+  return viscosity >= least_viscosity && viscosity <= largest_viscosity;
+}
+
 Lubricant::Property Lubricant::density(double temperature_C) const { return {density_15 - 0.7 * (temperature_C + kelvin - 289.0), -0.7}; }
 
 Lubricant::Property Lubricant::dynamic_viscosity(double temperature_C) const {

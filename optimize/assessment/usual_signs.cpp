@@ -12,8 +12,14 @@ namespace flankwright {
 namespace {
 
 /// Amounts that are removed at a border, measured from the middle.
-constexpr std::array<std::string_view, 6> never_negative{"lead_crowning",     "end_relief.amount", "addendum_crowning",
-                                                         "dedendum_crowning", "tip_relief.amount", "root_relief.amount"};
+constexpr std::array<std::string_view, 8> never_negative{"lead_crowning",
+                                                         "end_relief.amount",
+                                                         "addendum_crowning",
+                                                         "dedendum_crowning",
+                                                         "tip_relief.amount",
+                                                         "root_relief.amount",
+                                                         "triangular_tip_relief.amount",
+                                                         "triangular_root_relief.amount"};
 
 /// What a slope raises, and the parameters that lower the same border.
 struct RaisedBorder {

@@ -164,6 +164,25 @@ void note_closed_backlash(const Study& study, const GearPair& pair, std::vector<
   }
 }
 
+/// Faces that end together become narrower in common whichever way the wheel moves along its axis.
+void note_one_sided_derivative(const Study& study, const GearPair& pair, std::vector<std::string>& notes) {
+  const auto by_offset = [](const GradientParameter& p) {
+    const auto* misalignment = std::get_if<MisalignmentParameter>(&p.parameter);
+    return misalignment != nullptr && *misalignment == &Misalignment::axial_offset;
+  };
+  if (std::ranges::none_of(study.gradients, by_offset)) return;
+  constexpr double together = 1e-6;  // ends of faces that are apart by at most this [mm]
+  const auto meet = [&](const Scene& scene) {
+    const double offset = scene.misalignment.axial_offset;
+    return std::abs(pair.pinion.face.end - pair.wheel.face.end - offset) <= together ||
+           std::abs(pair.pinion.face.begin - pair.wheel.face.begin - offset) <= together;
+  };
+  if (std::ranges::none_of(study.scenes, meet)) return;
+  notes.emplace_back(
+      "the faces end together: an axial offset either way narrows the common face, and derivatives by misalignment.axial_offset are those towards larger "
+      "offsets");
+}
+
 }  // namespace
 
 std::string backlash_in_words(const GearPair& pair) {
@@ -220,7 +239,8 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
                     "working flanks are analysed",
                     -pair.backlash / units::um, pair.centre_distance, pair.backlash_free_centre_distance));
   }
-  if (pair.backlash > 0.0) note_closed_backlash(study, pair, notes);
+  if (pair.backlash >= -units::um) note_closed_backlash(study, pair, notes);
+  note_one_sided_derivative(study, pair, notes);
   note_other_flanks(study, notes);
   return notes;
 }

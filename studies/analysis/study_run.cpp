@@ -40,7 +40,7 @@ StudyResults StudyRun::finish() {
   const Stopwatch clock;
   results_.study.task->run(*this);
   find_edge_contact();
-  note_unit();
+  note_large_motions();
   if (!results_.life) rate_life();
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);

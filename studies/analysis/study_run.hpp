@@ -93,7 +93,7 @@ class StudyRun {
   void analyse_loaded(const std::vector<DesignScene>& scenes);
   void forget_loaded();
   void find_edge_contact();
-  void note_unit();
+  void note_large_motions();
   void size_effects();
 
   const ProgressReport& progress_;

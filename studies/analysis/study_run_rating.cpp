@@ -8,6 +8,7 @@
 #include "studies/analysis/governing_cases.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
 #include "studies/analysis/study_run.hpp"
+#include "studies/analysis/deflection_note.hpp"
 #include "studies/analysis/unit_note.hpp"
 #include "studies/study_file/study_life.hpp"
 
@@ -94,8 +95,10 @@ void StudyRun::find_edge_contact() {
   results_.notes.push_back(edge_contact_note(results_.loaded));
 }
 
-void StudyRun::note_unit() {
-  if (const std::string note = unit_note(results_); !note.empty()) results_.notes.push_back(note);
+void StudyRun::note_large_motions() {
+  for (const std::string& note : {unit_note(results_), deflection_note(results_)}) {
+    if (!note.empty()) results_.notes.push_back(note);
+  }
 }
 
 void StudyRun::size_effects() {

@@ -20,6 +20,10 @@ void make_folder(const std::filesystem::path& folder);
 /// A whole file as text. @throws InvalidInput ("file") where it cannot be read.
 std::string read_whole(const std::filesystem::path& file);
 
+/// What messages say of a results.json that cannot be used, and of what is asked for instead.
+inline constexpr const char* damaged_results = "a damaged or incomplete file";
+inline constexpr const char* results_of_a_run = "results.json as `flankwright run` writes it";
+
 /// results.json of a results folder. Throws InvalidInput where the folder has none.
 std::string read_results(const std::filesystem::path& folder);
 

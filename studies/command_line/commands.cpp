@@ -13,6 +13,7 @@
 #include "studies/command_line/finished_run.hpp"
 #include "studies/command_line/standard_output.hpp"
 #include "studies/command_line/study_paths.hpp"
+#include "studies/results/accepted_expectations.hpp"
 #include "studies/results/expectations.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/report/report.hpp"
@@ -33,23 +34,34 @@ namespace fs = std::filesystem;
 namespace {
 
 /// One tested study: its line, and whether everything was met.
+/// Writes what was found beside a study, into a copy that no folder of studies takes for one of them.
+std::string accept_beside(const fs::path& path, const Study& study, const Json& results) {
+  const AcceptedStudy accepted = accept_results(read_whole(path), study.expect, results);
+  const fs::path copy = path.string() + ".accepted";
+  write_whole(copy, accepted.text);
+  std::string text = fmt::format("  {} value{} of today in {}\n", accepted.values, accepted.values == 1 ? "" : "s", copy.string());
+  for (const std::string& kept : accepted.kept) text += "  not accepted:" + kept.substr(1);
+  return text;
+}
+
 struct TestLine {
   std::string text;
   bool met{true};
   bool bad_input{false};
 };
 
-TestLine test_study(const fs::path& path) {
+TestLine test_study(const fs::path& path, bool accept) {
   try {
     const Study study = read_study(path.string());
     if (study.expect.empty()) return {fmt::format("none  {}  (no [expect] table)\n", path.string())};
     StudyResults results = run_study(study);
     if (study.task->run_in_folder != nullptr) study.task->run_in_folder(results, {}, {});
-    const std::vector<Comparison> comparisons = compare(study.expect, results_document(results));
+    const Json document = results_document(results);
+    const std::vector<Comparison> comparisons = compare(study.expect, document);
     const std::string different = differences(comparisons);
     std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(), comparisons.size(),
                                    comparisons.size() == 1 ? "" : "s", results.seconds);
-    return {text + different, different.empty()};
+    return {text + different + (accept ? accept_beside(path, study, document) : ""), different.empty()};
   } catch (const InvalidInput& problem) {
     return {fmt::format("BAD   {}\n{}\n", path.string(), problem.what()), false, true};
   }
@@ -131,7 +143,7 @@ int report_command(const std::string& folder) {
   return 0;
 }
 
-int test_command(const std::vector<std::string>& paths) {
+int test_command(const std::vector<std::string>& paths, bool accept) {
   const std::vector<fs::path> studies = collect_studies(paths);
   if (studies.empty()) throw InvalidInput("test", "no study", "folders with *.toml files, or study files");
   std::vector<TestLine> lines(studies.size());
@@ -139,7 +151,7 @@ int test_command(const std::vector<std::string>& paths) {
   std::mutex mutex;
   int done = 0;
   tbb::parallel_for(std::size_t{0}, studies.size(), [&](std::size_t i) {
-    lines[i] = test_study(studies[i]);
+    lines[i] = test_study(studies[i], accept);
     const std::lock_guard lock(mutex);
     progress.show("testing", ++done, static_cast<int>(studies.size()), studies[i].filename().string());
   });

@@ -33,6 +33,7 @@ int new_command(const std::string& kind);
 int report_command(const std::string& folder);
 
 /// Runs every study of the given files and folders that has an [expect] table; a line each.
-int test_command(const std::vector<std::string>& paths);
+/// @param accept  write today's values into a copy of each study, FILE.accepted
+int test_command(const std::vector<std::string>& paths, bool accept);
 
 }  // namespace flankwright::studies

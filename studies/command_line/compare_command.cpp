@@ -34,8 +34,8 @@ std::vector<ComparedRun> read_runs(const std::vector<std::string>& folders) {
     const std::string text = read_results(folders[i]);
     try {
       runs[i] = {names[i], Json::parse(text)};
-    } catch (const Json::exception& error) {
-      throw InvalidInput((fs::path(folders[i]) / "results.json").string(), error.what(), "results.json of a study that has run");
+    } catch (const Json::exception&) {
+      throw InvalidInput((fs::path(folders[i]) / "results.json").string(), damaged_results, results_of_a_run);
     }
   });
   return runs;

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/fidelity/cycle_quantities.hpp"
+#include "studies/base/results_folder.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/base/unit_of_name.hpp"
 
@@ -248,7 +249,7 @@ ComparedRuns compare_runs(const std::vector<ComparedRun>& runs) {
   if (runs.size() < 2) throw InvalidInput("compare", std::to_string(runs.size()) + " run", "at least two results folders");
   Rows rows(runs.size());
   for (std::size_t run = 0; run < runs.size(); ++run) {
-    if (!runs[run].results.is_object()) throw InvalidInput(runs[run].name, runs[run].results.type_name(), "results.json of a study that has run");
+    if (!runs[run].results.is_object()) throw InvalidInput(runs[run].name, runs[run].results.type_name(), results_of_a_run);
     for (const auto& add : {add_geometry, add_design, add_loaded, add_unloaded, add_sweep}) add(runs[run].results, run, rows);
   }
   ComparedRuns compared{differing_keys(runs), rows.take()};

@@ -110,8 +110,8 @@ Results stored_results(const std::filesystem::path& folder) {
     Json document = Json::parse(text);
     std::vector<std::string> notes = document.at("notes"), requirements = document.at("requirements_not_met");
     return {folder.string(), std::move(document), "", "", std::move(notes), std::move(requirements)};
-  } catch (const Json::exception& error) {
-    throw InvalidInput((folder / "results.json").string(), error.what(), "results.json of a study that has run");
+  } catch (const Json::exception&) {
+    throw InvalidInput((folder / "results.json").string(), damaged_results, results_of_a_run);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "studies/base/results_folder.hpp"
 #include "studies/report/page_template.hpp"
 #include "studies/report/report_assets.hpp"
 #include "studies/report/report_view.hpp"
@@ -96,13 +97,12 @@ std::string text_or(const Json& results, const char* key, const char* fallback) 
   return found != results.end() && found->is_string() ? found->get<std::string>() : fallback;
 }
 
+/// Results as a run leaves them. What all of them have is there, and load cases are a list.
 Json parse(const std::string& text) {
-  Json results;
-  try {
-    results = Json::parse(text);
-  } catch (const Json::exception& failure) {
-    throw InvalidInput("results.json", failure.what(), "well-formed JSON");
-  }
+  const Json results = Json::parse(text, nullptr, false);
+  const bool has_parts = results.is_object() && has(results, "given") && has(results, "used") && has(results, "version");
+  const bool is_whole = has_parts && (!results.contains("loaded") || results.at("loaded").is_array());
+  if (!is_whole) throw InvalidInput("results.json", damaged_results, results_of_a_run);
   return results;
 }
 

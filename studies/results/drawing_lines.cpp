@@ -132,7 +132,7 @@ bool is_stated(const ModificationDescriptor& d, const Modification& modification
 }
 
 /// Where a profile relief begins, as diameter and roll length; nothing for other numbers.
-std::string relief_start(const Gear& gear, const ModificationDescriptor& d, const Modification& modification) {
+std::string relief_start(const Gear& gear, const FlankFrame& frame, const ModificationDescriptor& d, const Modification& modification) {
   const double height = d.get(modification);
   const auto roll = [&](double radius) { return gear.roll_length_at(std::max(radius, gear.base_radius)); };
   if (d.key == "tip_relief.height") {
@@ -142,6 +142,15 @@ std::string relief_start(const Gear& gear, const ModificationDescriptor& d, cons
   if (d.key == "root_relief.height") {
     const double end = gear.active_root_radius + height;
     return fmt::format("from d_Nf up to d_Cf = {:.3f} mm: roll length {:.3f} to {:.3f} mm", 2.0 * end, roll(gear.active_root_radius), roll(end));
+  }
+  for (const auto at : {ContactLineCorner::At::Tip, ContactLineCorner::At::Root}) {
+    const bool at_tip = at == ContactLineCorner::At::Tip;
+    if (d.key != (at_tip ? "triangular_tip_relief.height" : "triangular_root_relief.height")) continue;
+    const ContactLineCorner corner(frame, at, height);
+    const double start = at_tip ? gear.tip_form_radius - height : gear.active_root_radius + height;
+    return fmt::format("from {} = {:.3f} mm on the face end z = {:+g} mm ({} = {:.3f} mm of roll), along a line of contact, {:.2f} mm along the {}",
+                       at_tip ? "d_Ea" : "d_Ef", 2.0 * start, corner.face_end(), at_tip ? "L_Ea" : "L_Ef", corner.extent(), corner.reach_along_face(),
+                       at_tip ? "tip" : "start of active profile");
   }
   return "";
 }
@@ -166,7 +175,8 @@ std::vector<std::vector<std::string>> amounts_of(const GearPair& pair, Member me
     }
     if (const std::string cut = cut_tolerance(d, set, terms); !cut.empty()) lines.push_back(cut);
     if (d.key == "twist") lines.push_back(fmt::format("    {} = C_Hα at z = +b/2 less C_Hα at z = -b/2", d.symbol));
-    if (const std::string start = relief_start(pair[member], d, modification); !start.empty()) lines.push_back("    " + start);
+    if (const std::string start = relief_start(pair[member], pair.flank_frame(member), d, modification); !start.empty())
+      lines.push_back("    " + start);
     all.push_back(std::move(lines));
   }
   return all;

@@ -19,8 +19,8 @@ struct StudyReading;
 struct StudyResults;
 class StudyRun;
 
-/// A task of a study. A task is one folder of studies/tasks and one line in registered_tasks(); what a member leaves empty, the task
-/// does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
+/// A task of a study: one folder of studies/tasks and one line in registered_tasks(), with its data in Study and its results in StudyResults. What a
+/// member leaves empty, the task does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
 struct Task {
   const char* name{nullptr};     ///< as a study names it
   const char* meaning{nullptr};  ///< one sentence of Markdown that heads its keys in the key reference, with a link from studies/
@@ -46,7 +46,7 @@ struct Task {
   std::string (*study_template)(){nullptr};                                 ///< printed by `flankwright new`; never empty
 };
 
-/// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp, and nowhere else.
+/// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp.
 std::span<const Task* const> registered_tasks();
 
 /// @throws InvalidInput "task" for a name that no task has

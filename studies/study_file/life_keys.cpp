@@ -20,6 +20,7 @@ Lubricant& lubricant(StudyBuilder& builder) {
 constexpr Range strength_range = above_zero(1e5);                 // MPa
 constexpr Range slope_range = {.low = 1.0, .high = 200.0};        // exponents of S-N curves
 constexpr Range cycles_to_knee = {.low = 1e3, .high = 1e12};      // load cycles
+constexpr Range turning_speed = {.low = 1e-4, .high = 1e6};       // rpm: from a turn a week to turbines
 constexpr Range oil_temperature = {.low = -50.0, .high = 250.0};  // deg C
 
 using Curves = PerGear<GivenSnCurve> LifeTable::*;
@@ -97,7 +98,7 @@ void append_grade(std::vector<SchemaKey>& rows, const std::string& table) {
 
 std::vector<SchemaKey> life_rows() {
   std::vector<SchemaKey> rows{
-      {.path = "load.speed", .quantity = Quantity::RotationalSpeed, .range = above_zero(1e6), .fallback = "(none)",
+      {.path = "load.speed", .quantity = Quantity::RotationalSpeed, .range = turning_speed, .fallback = "(none)",
        .meaning = "of the pinion; loss power and lubricant film need it",
        .store = [](Scene& s, Member, const Value& v) { s.speed = v.number; }},
       {.path = "load.spectrum", .kind = TableListOrFile, .fallback = "(none)",
@@ -107,7 +108,7 @@ std::vector<SchemaKey> life_rows() {
       {.path = "load.spectrum[].torque", .quantity = Quantity::Torque, .range = within(1e9), .fallback = "(required)",
        .meaning = "on the pinion; above 0 it loads the pair's working flank and below 0 the other one, which a scene with the other working_flank rates; 0 is a time without load",
        .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).torque = v.number; }},
-      {.path = "load.spectrum[].speed", .quantity = Quantity::RotationalSpeed, .range = above_zero(1e6), .fallback = "(load.speed)",
+      {.path = "load.spectrum[].speed", .quantity = Quantity::RotationalSpeed, .range = turning_speed, .fallback = "(load.speed)",
        .meaning = "of the pinion; hours need it",
        .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).speed = v.number; }},
       {.path = "load.spectrum[].hours", .quantity = Quantity::Duration, .range = above_zero(1e7), .fallback = "(none)",

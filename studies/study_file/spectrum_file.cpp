@@ -8,6 +8,7 @@ namespace flankwright::studies {
 
 namespace {
 
+constexpr std::string_view spectrum_key = "load.spectrum";
 constexpr std::array<std::string_view, 6> spectrum_columns{"torque", "speed", "hours", "cycles", "temperature", "mesh_misalignment"};
 
 }  // namespace
@@ -23,9 +24,10 @@ std::vector<SpectrumRow> parse_spectrum(std::string_view text, const std::string
       if (!columns[i].unit.empty()) value.append(" ").append(columns[i].unit);
       row.push_back({columns[i].name, std::move(value), line, cells[i].column});
     }
+    if (row.empty()) refuse_cell(name, line, 1, spectrum_key, "(empty)", "allowed are rows with a torque");
   };
   read_table(
-      text, name, {"load.spectrum", spectrum_columns}, [&](int, const std::vector<TableColumn>& header) { columns = header; }, add_row);
+      text, name, {spectrum_key, spectrum_columns}, [&](int, const std::vector<TableColumn>& header) { columns = header; }, add_row);
   return rows;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "studies/base/results_folder.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/study_file/study_file.hpp"
 
@@ -60,8 +61,8 @@ Study stored_study(const std::string& results, const std::string& file, StoredFl
     if (flanks == StoredFlanks::Final && json.contains("optimise")) {
       for (const auto& [key, value] : json["optimise"]["after"]["variables"].items()) variables.push_back({key, value.dump()});
     }
-  } catch (const std::exception& error) {
-    throw InvalidInput(file, error.what(), "results.json of a study that has run");
+  } catch (const std::exception&) {
+    throw InvalidInput(file, damaged_results, results_of_a_run);
   }
   return parse_study(text, name, variables);
 }

@@ -86,6 +86,10 @@ void check_relief(StudyReading& reading, Member m, const ModificationDescriptor&
   }
   const bool has_derivative = asks_derivative(study, m, of_amount.parameter);
   if (!has_amount && !has_derivative) return;
+  if (of_amount.needs_helix && study.pair.helix_angle == 0.0) {
+    const std::string asked_by = amount != nullptr ? "optimise.variables." + amount_path : has_amount ? amount_path : "analyse.gradients";
+    return reading.refuse_key(asked_by, "a helical pair: the lines of contact of a spur pair cut off no corner");
+  }
   if (extent != nullptr && extent->lower <= 0.0) {
     return reading.refuse_key("optimise.variables." + path, "allowed is a lower bound above 0 mm: the relief is spread over it");
   }
@@ -213,6 +217,35 @@ void check_other_flanks(StudyReading& reading) {
   }
 }
 
+/// Gears that can mesh in every scene: no tip in the mate's root, and a common face.
+void check_scene_placements(StudyReading& reading) {
+  if (!reading.problems.empty()) return;
+  const Study& study = reading.builder.study;
+  const GearPair pair = make_gear_pair(study.pair);
+  for (std::size_t i = 0; i < study.scenes.size(); ++i) {
+    const Misalignment& of = study.scenes[i].misalignment;
+    const auto refuse = [&](const char* key, double value, const std::string& allowed) {
+      const std::string in_scene = "scenes." + std::to_string(i) + "." + key, path = reading.positions.contains(in_scene) ? in_scene : key;
+      const Position at = reading.where(path);
+      reading.problems.push_back({at.file, at.line, at.column, path, in_words(value), "allowed is " + allowed});
+    };
+    for (const Member m : members) {
+      const double least = pair[m].tip_radius + pair[m == Member::Pinion ? Member::Wheel : Member::Pinion].root_radius - pair.centre_distance;
+      if (of.centre_distance > least) continue;
+      refuse("misalignment.centre_distance", of.centre_distance,
+             "above " + in_words(least) + " mm, where the " + name_of(m) + "'s tip meets the mate's root circle");
+      break;
+    }
+    constexpr double least_share = 0.01;  // of the narrower face, which both have in common
+    const FaceRange &one = pair.pinion.face, &other = pair.wheel.face;
+    const double common = std::min(one.end, of.axial_offset + other.end) - std::max(one.begin, of.axial_offset + other.begin);
+    const double least = least_share * std::min(one.end - one.begin, other.end - other.begin);
+    if (common < least)
+      refuse("misalignment.axial_offset", of.axial_offset,
+             "one that leaves at least " + in_words(least) + " mm of face in common, 1 % of the narrower one");
+  }
+}
+
 }  // namespace
 
 void check_flanks(StudyReading& reading) {
@@ -226,6 +259,7 @@ void check_flanks(StudyReading& reading) {
     check_finite_elements(reading, m);
   }
   check_other_flanks(reading);
+  check_scene_placements(reading);
 }
 
 }  // namespace flankwright::studies

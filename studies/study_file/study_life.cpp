@@ -1,5 +1,7 @@
 #include "studies/study_file/study_life.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -43,9 +45,9 @@ void read_row(StudyReading& reading, const std::string& file, const SpectrumRow&
       reading.problems.push_back({file, cell.line, cell.column, path + cell.key, cell.text, "allowed is " + problem.allowed()});
     }
   }
-  reading.positions.emplace(path.substr(0, path.size() - 1), Position{file, row.empty() ? 0 : row.front().line, 1});
+  reading.positions.emplace(path.substr(0, path.size() - 1), Position{file, row.front().line, 1});
   if (!has_torque) {
-    reading.problems.push_back({file, row.empty() ? 0 : row.front().line, 1, path + "torque", "(not given)", "required: allowed is a torque in N·m"});
+    reading.problems.push_back({file, row.front().line, 1, path + "torque", "(not given)", "required: allowed is a torque in N·m"});
   }
 }
 
@@ -69,7 +71,12 @@ void read_source(StudyReading& reading, const Match& match) {
     int index = 0;
     if (has_signal) return read_signal(reading, path);
     for (const SpectrumRow& row : read_spectrum_file(path)) {
-      if (reading.problems.size() < most_said) read_row(reading, path, row, index++);
+      if (reading.problems.size() >= most_said) {
+        reading.problems.push_back({path, row.front().line, 1, match.path, "(the rows from here on)",
+                                    "not looked at: there are " + std::to_string(most_said) + " problems before them"});
+        break;
+      }
+      read_row(reading, path, row, index++);
     }
   } catch (const StudyErrors& errors) {
     for (const StudyProblem& problem : errors.problems()) {
@@ -161,6 +168,16 @@ void check_curve(StudyReading& reading, const GivenSnCurve& curve, Member member
   }
 }
 
+/// The oil is one at this temperature, neither solid nor gas.
+void check_viscosity(StudyReading& reading, const std::string& path, double temperature) {
+  const Lubricant& oil = reading.builder.study.life.lubricant;
+  if (oil.has_viscosity_at(temperature)) return;
+  const Position at = reading.where(path);
+  reading.problems.push_back({at.file, at.line, at.column, path, in_words(temperature) + " degC",
+                              fmt::format("this oil would have {:.3g} mm2/s there: allowed is a temperature at which it has {:g} .. {:g} mm2/s",
+                                          oil.kinematic_viscosity(temperature).value, Lubricant::least_viscosity, Lubricant::largest_viscosity)});
+}
+
 void check_lubricant(StudyReading& reading) {
   const LifeTable& life = reading.builder.study.life;
   if (!life.has_lubricant) return;
@@ -174,8 +191,15 @@ void check_lubricant(StudyReading& reading) {
       reading.refuse(reading.where("lubricant"), path, nullptr, "required: allowed is " + allowed_values(*study_keys().at(path)));
     }
   }
-  if (complete && !(life.lubricant.viscosity_40 > life.lubricant.viscosity_100)) {
-    reading.refuse_key("lubricant.viscosity_40", "allowed is a number above viscosity_100");
+  if (!complete) return;
+  if (!(life.lubricant.viscosity_40 > life.lubricant.viscosity_100)) {
+    return reading.refuse_key("lubricant.viscosity_40", "allowed is a number above viscosity_100");
+  }
+  check_viscosity(reading, "lubricant.temperature", life.lubricant.temperature);
+  if (!std::isnan(life.bulk_temperature)) check_viscosity(reading, "lubricant.bulk_temperature", life.bulk_temperature);
+  const std::vector<SpectrumBin>& bins = reading.builder.study.spectrum;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    if (!std::isnan(bins[k].temperature)) check_viscosity(reading, "load.spectrum." + std::to_string(k) + ".temperature", bins[k].temperature);
   }
 }
 

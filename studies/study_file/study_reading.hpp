@@ -54,7 +54,7 @@ Value read_value(const SchemaKey& key, const toml::node& node);
 /// One number of a key's quantity and range, in internal units. Throws as read_value() does.
 double read_number(const SchemaKey& key, const toml::node& node);
 
-/// Reads a matched key and stores it in draft or scene; what cannot be read becomes a problem.
+/// Reads a matched key and stores it in the builder or a scene; what cannot be read becomes a problem.
 void read_into(StudyReading& reading, const Match& match, Scene& scene);
 
 /// Stores the defaults of all keys that have one.

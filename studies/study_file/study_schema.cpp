@@ -108,6 +108,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 }
 
 std::string nearest_key_hint(const KeyIndex& keys, const std::string& path) {
+  const auto below = std::ranges::find_if(keys, [&](const auto& key) { return key.first.starts_with(path + "."); });
+  if (below != keys.end()) return ", a table: did you mean " + below->first + "?";
   const std::string parent = parent_of(path);
   const std::string last = path.substr(parent.size());
   std::vector<std::string> siblings;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "studies/study_file/signal_file.hpp"
+#include "studies/study_file/sweep_value.hpp"
 
 namespace flankwright::studies {
 
@@ -35,6 +37,20 @@ std::vector<SpectrumBin> bins_of(const CountedSignal& counted) {
   return bins;
 }
 
+/// A bin beyond the range of the keys that would give it.
+std::optional<InvalidInput> find_problem(const std::vector<SpectrumBin>& bins) {
+  static const KeyIndex keys = element_keys("load.spectrum");
+  for (const SpectrumBin& bin : bins) {
+    for (const auto& [name, value] : {std::pair{"torque", bin.torque}, std::pair{"hours", bin.hours}, std::pair{"cycles", bin.cycles}}) {
+      const SchemaKey& key = *keys.at(name);
+      const double bare = outside_value(value, key.quantity);
+      const bool is_none = std::isnan(bare) || bare == 0.0;  // not counted, or a standstill
+      if (!is_none && !is_in_range(key, bare)) return InvalidInput(name, in_words(bare), allowed_values(key));
+    }
+  }
+  return std::nullopt;
+}
+
 double repeats_of(const SpectrumSource& source, double duration) {
   if (!std::isnan(source.hours)) return source.hours / duration;
   return std::isnan(source.repeats) ? 1.0 : source.repeats;
@@ -63,6 +79,10 @@ void read_signal(StudyReading& reading, const std::string& path) {
     return reading.refuse_key(signal_path, path + ": " + problem.field() + " is " + problem.value() + ", allowed is " + problem.allowed());
   }
   study.spectrum = bins_of(counted);
+  if (const auto problem = find_problem(study.spectrum)) {
+    return reading.refuse_key(signal_path,
+                              path + " counts to a " + problem->field() + " of " + problem->value() + ": allowed is " + problem->allowed());
+  }
   study.signal = std::move(counted);
 }
 

@@ -5,7 +5,7 @@
 /// Inside the reader: the tables of a study whose keys are not fixed names.
 namespace flankwright::studies {
 
-/// [[scenes]], or the one nominal scene; each is the base with its overrides. Needs draft.base.
+/// [[scenes]], or the one nominal scene; each is the base with its overrides. Needs builder.base.
 void read_scenes(StudyReading& reading);
 
 /// [expect].

@@ -96,6 +96,8 @@ class Drawing {
       out_.line("end_relief.amount", random_.log_uniform(1e-9 * largest, largest));
       out_.line("end_relief.length", std::clamp(face_ * random_.uniform(0.01, 0.4), 1e-6, 10000.0));
     }
+    if (helix_ > 0.0 && one_in(5)) relief("triangular_tip_relief", largest, module_ * random_.uniform(0.05, 1.5));
+    if (helix_ > 0.0 && one_in(5)) relief("triangular_root_relief", largest, module_ * random_.uniform(0.05, 1.0));
     if (one_in(8)) out_.line("parabolic_te", random_.log_uniform(1e-12, 1.0));
     if (one_in(4)) amount("topography.profile_2_face_2", largest);
     out_.table(name + ".error");

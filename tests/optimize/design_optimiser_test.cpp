@@ -254,6 +254,20 @@ TEST_CASE("A budget is kept, and the best design met so far comes back", "[optim
   }
 }
 
+TEST_CASE("A search that ends far outside a limit has no multipliers, one that ends near it has", "[optimize][design]") {
+  DesignTask task = spur({10.0, -10.0});
+  const double start = optimise(task).before.objective;
+  task.objective = {term(Output::TePeakToPeak)};
+  OutputConstraint bound{term(Output::PeakContactStress)};
+  for (const double share : {0.5, 0.95}) {  // of the stress of the start, which two analyses hardly change
+    bound.maximum = share * start;
+    task.constraints = {bound};
+    const DesignResult result = optimise(task, "nlopt:slsqp", 1);
+    CAPTURE(share, result.message, result.after.constraint_values[0], bound.maximum);
+    CHECK(std::isnan(result.optimality.residual) == (share == 0.5));
+  }
+}
+
 TEST_CASE("A start outside the bounds is reported as given and optimised from inside", "[optimize][design]") {
   DesignTask task = spur({10.0, -10.0});
   task.modification.pinion.lead_crowning = 0.060;  // bounds 0 .. 0.040

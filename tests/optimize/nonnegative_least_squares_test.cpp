@@ -44,3 +44,26 @@ TEST_CASE("A pull is a diagonal below the matrix", "[optimize]") {
     CHECK((nonnegative_least_squares(A, b, pull) - nonnegative_least_squares(below, right)).lpNorm<Eigen::Infinity>() <= round_off);
   }
 }
+
+TEST_CASE("Columns that nearly depend on each other do not keep it from the least sum of squares", "[optimize]") {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> normal;
+  for (int run = 0; run < 60; ++run) {
+    constexpr Eigen::Index m = 8, kinds = 5, alike = 20;
+    const double apart = std::pow(10.0, -10 - run % 5);
+    Eigen::MatrixXd one(m, kinds), A(m, kinds * alike);
+    Eigen::VectorXd b(m);
+    for (double& a : one.reshaped()) a = normal(generator);
+    for (double& v : b) v = normal(generator);
+    for (Eigen::Index j = 0; j < A.cols(); ++j) {
+      A.col(j) = one.col(j % kinds);
+      for (double& a : A.col(j)) a += apart * normal(generator);
+    }
+    const Eigen::VectorXd y = nonnegative_least_squares(A, b);
+    const double least = (one * nonnegative_least_squares(one, b) - b).norm();
+    CAPTURE(run, apart);
+    CHECK(y.minCoeff() >= 0.0);
+    // Loads of the size of b: their columns are off by `apart` each, and what little they differ by is round-off.
+    CHECK((A * y - b).norm() <= least + 1e3 * apart * b.norm());
+  }
+}

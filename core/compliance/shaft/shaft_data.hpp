@@ -53,7 +53,7 @@ struct ShaftData {
   /// Where a coupling is, and the torque enters or leaves that gears and other loads leave over, outside the gear's face [mm]; not given: there is
   /// no coupling, which only a shaft of a gear unit can do without.
   double torque_position{not_given};
-  /// The gear is one with its shaft: over its face the section is that of the gear, see gear_seat(); false: it is the
+  /// The gear is one with its shaft: over its face the section is that of the gear, see GearSeat; false: it is the
   /// shaft's own.
   bool gear_stiffens{true};
   Material material{};

@@ -53,7 +53,6 @@ FlankAssembly assemble_flanks(const GearPair& pair, const FlankCondition& condit
   }
   assembly.pinion_teeth = pair.data.pinion.teeth;
   assembly.wheel_teeth = pair.data.wheel.teeth;
-  assembly.nominal_phase_rate = assembly.pinion_teeth / (2.0 * units::pi);
 
   // F_beta_y is a deviation of the flank lines: it opens the mesh as removed metal on the wheel does.
   assembly.wheel.error.helix_slope -= misalignment.mesh_misalignment * assembly.wheel.frame.face_width / pair.face_width;

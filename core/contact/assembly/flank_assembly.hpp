@@ -18,7 +18,6 @@ struct FlankAssembly {
   Eigen::Matrix3d wheel_axes;    ///< columns: wheel frame axes in W; the wheel frame is turned by pi about z, then tilted
   Eigen::Vector3d wheel_centre;  ///< mid-face centre of the wheel in W [mm]
   int pinion_teeth{0}, wheel_teeth{0};
-  double nominal_phase_rate{0.0};  ///< base pitches the contact point advances per radian of phi1: N1 / (2 pi)
 
   Flank& operator[](Member m) { return m == Member::Pinion ? pinion : wheel; }
   const Flank& operator[](Member m) const { return m == Member::Pinion ? pinion : wheel; }

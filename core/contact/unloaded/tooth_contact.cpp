@@ -17,7 +17,7 @@ constexpr double coarse_error = 1e-12;         // rad: bound on what SectionAccu
 constexpr double announced_share = 1.0 / 4.0;  // of an interval of the face with a maximum: halved to this, hollow flanks only
 constexpr double hidden_share = 1.0 / 64.0;    // of an interval of the face that hides a maximum: halved to this
 constexpr double angle_round_off = 1e-15;      // rad: wheel angles closer than this are the same
-// Along the face [mm], [rad], [mm]; see profile_tolerance.
+// Along the face [mm], [rad], [mm].
 constexpr PeakTolerance face_tolerance{1e-7, 1e-16, 1e-6};
 
 /// The maximisation over the face for one tooth pair and pinion angle.

@@ -51,6 +51,7 @@ struct ParameterText {
   std::string_view extent{};              ///< key of the extent over which this amount is spread; empty: it needs none
   std::string_view half{}, other_half{};  ///< keys of the two parameters that this one sets at once; empty: it is an independent number
   bool odd_along_face{false};             ///< its removal changes its sign with z
+  bool needs_helix{false};                ///< a spur gear cannot have it
 };
 
 /// One number of modification M, which a study may set, a designer vary and a sweep draw.

@@ -16,15 +16,17 @@
 #include "core/flank/modifications/root_relief.hpp"
 #include "core/flank/modifications/tip_relief.hpp"
 #include "core/flank/modifications/topography_shapes.hpp"
+#include "core/flank/modifications/triangular_relief.hpp"
 #include "core/flank/modifications/twist.hpp"
 #include "core/gear/deviation_field.hpp"
 
 namespace flankwright {
 
 /// Every modification that there is. Its header describes it; code that needs all of them goes through this list.
-using Modifications = ModificationList<modifications::LeadCrowning, modifications::LeadSlope, modifications::ProfileCrowning,
-                                       modifications::ProfileSlope, modifications::TipRelief, modifications::RootRelief, modifications::EndReliefs,
-                                       modifications::Twist, modifications::ParabolicTe, modifications::TopographyShapes>;
+using Modifications =
+    ModificationList<modifications::LeadCrowning, modifications::LeadSlope, modifications::ProfileCrowning, modifications::ProfileSlope,
+                     modifications::TipRelief, modifications::RootRelief, modifications::EndReliefs, modifications::TriangularTipRelief,
+                     modifications::TriangularRootRelief, modifications::Twist, modifications::ParabolicTe, modifications::TopographyShapes>;
 
 /// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
 /// transverse plane along the base tangent [ISO 21771; ISO 1328-1]. All amounts in mm, parabolic_te in 1/rad.

@@ -33,6 +33,8 @@ void write_modification(const ImportedModification& imported, Member member, con
   key("tip_relief", relief_text(m.tip_relief));
   key("root_relief", relief_text(m.root_relief));
   key("end_relief", fmt::format("{{ amount = {}, length = {} }}", um_text(m.end_relief.amount), number_text(m.end_relief.length)));
+  key("triangular_tip_relief", relief_text(m.triangular_tip_relief));
+  key("triangular_root_relief", relief_text(m.triangular_root_relief));
   key("twist", um_text(m.twist));
   key("grid", quoted(grid_file));
 }

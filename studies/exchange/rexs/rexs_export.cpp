@@ -211,6 +211,12 @@ class Export {
   void write(Member m, const modifications::RootRelief& part) {
     add_relief("root_relief", part.root_relief, root(m) + 2.0 * part.root_relief.height, root(m));
   }
+  void write(Member m, const modifications::TriangularTipRelief& part) {
+    add_relief("triangular_tip_relief", part.triangular_tip_relief, tip(m) - 2.0 * part.triangular_tip_relief.height, tip(m));
+  }
+  void write(Member m, const modifications::TriangularRootRelief& part) {
+    add_relief("triangular_root_relief", part.triangular_root_relief, root(m) + 2.0 * part.triangular_root_relief.height, root(m));
+  }
   void write(Member m, const modifications::EndReliefs& part) {
     for (const auto& [side, end] : {std::pair{std::string("datum_face"), -half_face(m)}, std::pair{std::string("non_datum_face"), half_face(m)}}) {
       add_modification("end_relief_" + side);

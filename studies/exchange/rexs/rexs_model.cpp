@@ -1,12 +1,14 @@
 #include "studies/exchange/rexs/rexs_model.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
 #include <cstdint>
+#include <map>
 #include <set>
 
 #include "studies/exchange/rexs/rexs_archive.hpp"
@@ -47,12 +49,27 @@ void check_parts(std::string_view text, const std::string& name) {
     refuse(name, 0, "file", fmt::format("a text of {} parts", parts), fmt::format("at most {} elements and values", most_parts));
 }
 
+/// An attribute may be repeated, but not with another value.
+void check_attributes(const Component& component, const std::string& name) {
+  std::map<std::string_view, const Attribute*> seen;
+  for (const Attribute& attribute : component.attributes) {
+    const Attribute& first = *seen.emplace(attribute.id, &attribute).first->second;
+    if (first.text == attribute.text && first.unit == attribute.unit && first.array == attribute.array) continue;
+    const std::string value = attribute.array.empty() ? attribute.text : fmt::format("{}", fmt::join(attribute.array, " "));
+    refuse(name, attribute.line, fmt::format("{} {}", component.type, attribute.id), value, "one value: this attribute has another before it");
+  }
+}
+
 void check_ids(const Model& model, const std::string& name) {
   std::set<int> seen;
   for (const Component& component : model.components) {
     if (!seen.insert(component.id).second) {
       refuse(name, component.line, "component id", std::to_string(component.id), "each id once");
     }
+    check_attributes(component, name);
+  }
+  for (const LoadCase& load_case : model.load_cases) {
+    for (const Component& varied : load_case.components) check_attributes(varied, name);
   }
 }
 

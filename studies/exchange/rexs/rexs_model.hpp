@@ -74,7 +74,7 @@ enum class Form { Xml, Json };
 ///
 /// @param name  stands for the file in messages
 /// @throws StudyErrors with one problem, and its line where the form has one: damaged XML, JSON or archive, not
-/// UTF-8, no REXS model, an id that is missing, no number or given twice
+/// UTF-8, no REXS model, an id that is missing, no number or given twice, an attribute with two values
 Model parse_model(std::string_view text, const std::string& name);
 
 /// The model as a file in UTF-8 with a byte order mark.

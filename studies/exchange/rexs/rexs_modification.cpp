@@ -12,15 +12,14 @@
 #include "studies/study_file/grid_file.hpp"
 #include "studies/exchange/rexs/flank_parts.hpp"
 #include "studies/exchange/rexs/modification_list.hpp"
-#include "studies/exchange/rexs/relief_form.hpp"
+#include "studies/exchange/rexs/relief_reading.hpp"
 #include "studies/exchange/rexs/topography_text.hpp"
 
 namespace flankwright::studies::rexs {
 
 namespace {
 
-/// Equal to the digits that a unit leaves [mm].
-bool same_length(double a, double b) { return std::abs(a - b) <= 1e-9 * (1.0 + std::abs(a)); }
+using Along = ReliefReading::Along;
 
 class ModificationReading {
  public:
@@ -30,7 +29,8 @@ class ModificationReading {
         gear_(pair[member]),
         frame_(pair.flank_frame(member)),
         base_helix_(pair.base_helix_angle),
-        slope_end_(slope_end) {}
+        slope_end_(slope_end),
+        reliefs_(reading, gear_, frame_) {}
 
   ImportedModification read() {
     if (parts_.flank == nullptr) return {};
@@ -54,10 +54,7 @@ class ModificationReading {
     if (c.type == "end_relief_datum_face") return read_end_relief(c, "datum_face", datum_end_);
     if (c.type == "end_relief_non_datum_face") return read_end_relief(c, "non_datum_face", other_end_);
     if (c.type == "topographical_modification") return read_topography(c);
-    // Triangular reliefs: the diameter at which one starts and its depth, but neither at which end of the face it lies nor how far it
-    // reaches along it.
-    reading_.word(&c, "shape_of_relief");
-    leave_out(c, "the format does not say over which part of the face it reaches");
+    read_triangular_relief(c, c.type == "triangular_tip_relief");
   }
 
   std::optional<double> length(const Component& c, std::string_view id) {
@@ -71,86 +68,45 @@ class ModificationReading {
   void leave_out(const Component& c, const std::string& why) { reading_.warn(Reading::name_of(c) + ": not taken, " + why); }
   void note(const Component& c, const std::string& what) { reading_.warn(Reading::name_of(c) + ": " + what); }
 
-  /// Radius at a roll length measured from the tip down.
-  double radius_below_tip(double roll) const {
-    const double rest = gear_.roll_length_at(frame_.tip_radius) - roll;
-    return std::hypot(frame_.base_radius, std::max(0.0, rest));
-  }
-  /// Radius at a roll length measured from the start of active profile up.
-  double radius_above_root(double roll) const {
-    return std::hypot(frame_.base_radius, gear_.roll_length_at(std::max(frame_.active_root_radius, frame_.base_radius)) + roll);
-  }
-
-  /// Linear or parabolic; what is neither, but near the parabola, is taken for it. Nullopt for the rest, which is left out.
-  std::optional<ReliefShape> shape_of(const Component& c) {
-    const std::string shape = reading_.word(&c, "shape_of_relief");
-    if (shape.empty() || shape == "linear" || shape == "false" || shape == "False") return ReliefShape::Linear;
-    if (shape == "circular") note(c, "its circular shape is taken as parabolic");
-    if (shape == "parabolic" || shape == "circular") return ReliefShape::Parabolic;
-    leave_out(c, fmt::format("the format has no formula for its shape, \"{}\"", shape));
-    return std::nullopt;
-  }
-
-  /// The form of a relief with its tangential transition, where that can be taken.
-  /// @param start, end  of the transition, as shares of the relief's extent
-  ReliefForm form_of(const Component& c, ReliefShape shape, std::optional<double> start, std::optional<double> end) {
-    const ReliefForm plain{shape};
-    if (reading_.word(&c, "specify_tangential_transition") != "true") return plain;
-    const std::string kink = "its tangential transition is not taken, the relief starts with a kink: ";
-    if (!start || !end) {
-      note(c, kink + "the file does not say where it starts and ends");
-    } else if (shape != ReliefShape::Linear) {
-      note(c, kink + "the format has it for linear reliefs");
-    } else if (const ReliefForm blended{shape, *start, *end}; !blended.can_blend()) {
-      note(c, kink + "the relief does not start in the middle third of it");
-    } else {
-      return blended;
-    }
-    return plain;
-  }
-
   void read_relief(const Component& c, bool at_tip) {
-    const std::string name = at_tip ? "tip_relief" : "root_relief";
-    const auto depth = length(c, name + "_depth");
-    if (!depth || *depth == 0.0) return leave_out(c, "it has no depth");
-    const auto diameter = length(c, name + "_datum_diameter"), roll = length(c, name + "_datum_length");
-    const auto reference = length(c, name + "_evaluation_reference");
-    if (!diameter && !roll) return leave_out(c, "it has neither datum diameter nor datum length");
-    const auto shape = shape_of(c);
-    if (!shape) return;
+    const auto taken = reliefs_.profile_relief(c, at_tip ? "tip_relief" : "root_relief", at_tip, Along::Radius);
+    if (!taken) return;
+    const auto& [amount, height, form] = *taken;
     if (length(c, "position_of_profile_modification")) note(c, "its position along the face is not taken, the relief is the same along all of it");
-    const double end = at_tip ? frame_.tip_radius : frame_.active_root_radius;
-    const double start = diameter ? 0.5 * *diameter : at_tip ? radius_below_tip(*roll) : radius_above_root(*roll);
-    const double height = at_tip ? end - start : start - end;
-    if (!(height > 0.0))
-      return leave_out(
-          c, fmt::format("it starts at radius {} mm, beyond the end of the profile at {} mm", difference_text(start), difference_text(end)));
-    if (!diameter)
-      note(c, at_tip ? "its datum length is taken as roll length from the tip"
-                     : "its datum length is taken as roll length from the start of active profile");
-    const double sense = at_tip ? 1.0 : -1.0;
-    const auto share_of = [&](const std::string& place) -> std::optional<double> {
-      auto radius = length(c, name + "_diameter_where_tangential_transition_" + place + "s");
-      if (radius) *radius *= 0.5;
-      const auto roll_length = length(c, name + "_length_of_tangential_transition_" + place);
-      if (!radius && roll_length) radius = at_tip ? radius_below_tip(*roll_length) : radius_above_root(*roll_length);
-      return radius ? std::optional(sense * (*radius - start) / height) : std::nullopt;
-    };
-    const ReliefForm form = form_of(c, *shape, share_of("start"), share_of("end"));
-    double amount = *depth;
-    if (reference && !same_length(0.5 * *reference, end)) {
-      const double share = height / std::abs(0.5 * *reference - start);
-      if (!std::isfinite(share)) return leave_out(c, "it is evaluated where it starts");
-      amount *= ReliefForm{*shape}.at(share);
-      note(c, fmt::format("its depth at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*reference),
-                          difference_text(2.0 * end)));
-    }
     ProfileRelief& relief = at_tip ? result_.modification.tip_relief : result_.modification.root_relief;
-    if (form.is_blended() || (relief.amount != 0.0 && (!same_length(relief.height, height) || relief.shape != *shape))) {
-      return add_part(c, [=](double r, double) { return amount * form.at(sense * (r - start) / height); }, {.along_face = false});
+    if (cannot_join(relief, *taken)) {
+      const double end = at_tip ? frame_.tip_radius : frame_.active_root_radius, sense = at_tip ? 1.0 : -1.0;
+      return add_part(
+          c, [=, form = form, amount = amount, height = height](double r, double) { return amount * form.at(1.0 + sense * (r - end) / height); },
+          {.along_face = false});
     }
-    relief = {relief.amount + amount, height, *shape};
+    relief = {relief.amount + amount, height, form.shape};
+    remark(at_tip ? "tip_relief" : "root_relief", c);
+  }
+
+  /// The format gives the start of a triangular relief at the face end and no line: it is taken to start along the line of contact through that point, as
+  /// ISO 21771 has it, which says at which end of the face it lies too.
+  void read_triangular_relief(const Component& c, bool at_tip) {
+    const std::string name = at_tip ? "triangular_tip_relief" : "triangular_root_relief";
+    if (base_helix_ == 0.0) return leave_out(c, "lines of contact of a spur gear cut off no corner");
+    const auto taken = reliefs_.profile_relief(c, name, at_tip, Along::Roll);
+    if (!taken) return;
+    const ContactLineCorner corner(frame_, at_tip ? ContactLineCorner::At::Tip : ContactLineCorner::At::Root, taken->height);
+    if (length(c, "position_of_profile_modification")) note(c, "its position along the face is not taken");
+    ProfileRelief& relief = at_tip ? result_.modification.triangular_tip_relief : result_.modification.triangular_root_relief;
+    if (cannot_join(relief, *taken)) {
+      return add_part(c, [corner, form = taken->form, amount = taken->amount](double r, double z) {
+        return amount * form.at(corner.beyond(r, z) / corner.extent());
+      });
+    }
+    relief = {relief.amount + taken->amount, taken->height, taken->form.shape};
     remark(name, c);
+    result_.remarks[name] += fmt::format("; taken to start along a line of contact, at the corner z = {} mm", number_text(corner.face_end()));
+  }
+
+  /// Whether a study's one relief cannot have this one in it as well.
+  static bool cannot_join(const ProfileRelief& relief, const ReliefReading::Relief& other) {
+    return other.form.is_blended() || (relief.amount != 0.0 && (!same_length(relief.height, other.height) || relief.shape != other.form.shape));
   }
 
   void read_profile_slope(const Component& c) {
@@ -274,13 +230,13 @@ class ModificationReading {
     const auto depth = length(c, "end_relief_depth_" + side), extent = length(c, "end_relief_length_" + side);
     const auto reference = length(c, "end_relief_evaluation_reference_" + side);
     if (!depth || !extent || !(*extent > 0.0)) return leave_out(c, "it has no depth or no length");
-    const auto shape = shape_of(c);
+    const auto shape = reliefs_.shape_of(c);
     if (!shape) return;
     const auto share_of = [&](const std::string& place) -> std::optional<double> {
       const auto from_end = length(c, "end_relief_" + side + "_length_of_tangential_transition_" + place);
       return from_end ? std::optional(1.0 - *from_end / *extent) : std::nullopt;
     };
-    const ReliefForm form = form_of(c, *shape, share_of("start"), share_of("end"));
+    const ReliefForm form = reliefs_.form_of(c, *shape, share_of("start"), share_of("end"));
     double amount = *depth;
     if (reference && !same_length(std::abs(*reference), 0.5 * frame_.face_width)) {
       const double within = *extent - (0.5 * frame_.face_width - std::abs(*reference));
@@ -380,6 +336,7 @@ class ModificationReading {
   FlankFrame frame_;
   double base_helix_;
   SlopeEnd slope_end_;
+  ReliefReading reliefs_;
   EndOfFace datum_end_, other_end_;
   std::vector<FlankPart> parts_of_grid_;
   std::string points_;  ///< the grid file of the last topographical_modification

@@ -13,6 +13,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "studies/base/results_folder.hpp"
 #include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {
@@ -266,8 +267,8 @@ std::vector<ExportedFile> vtk_series(const std::string& results, const std::stri
     const Json json = Json::parse(results);
     if (json.at("loaded").empty()) throw InvalidInput(file, "no loaded contact", "results of a study with a torque");
     for (std::size_t i = 0; i < json["loaded"].size(); ++i) add_case(json, i, files);
-  } catch (const Json::exception& error) {
-    throw InvalidInput(file, error.what(), "results.json of a study that has run");
+  } catch (const Json::exception&) {
+    throw InvalidInput(file, damaged_results, results_of_a_run);
   }
   return files;
 }

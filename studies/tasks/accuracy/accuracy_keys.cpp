@@ -38,6 +38,7 @@ std::vector<SchemaKey> accuracy_keys() {
 
 void check_accuracy(StudyReading& reading) {
   const Study& study = reading.builder.study;
+  if (reading.problems.empty() && !has_torque(study)) reading.refuse_key("load.torque", "task \"accuracy\" needs a torque above 0");
   const std::vector<double>& curve = study.accuracy.outside.transmission_error;
   const std::string key = "accuracy.outside.transmission_error";
   if (curve.empty()) {

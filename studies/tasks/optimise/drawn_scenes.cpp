@@ -33,6 +33,13 @@ void put(Scene& scene, const SceneTolerance& tolerance, double value) {
   std::get<StoreInScene>(key.store)(scene, key.member, Value{.number = inside, .numbers = {inside}});
 }
 
+bool is_accepted(const Scene& scene, const SceneTolerance& tolerance, double value) {
+  const SchemaKey& key = *study_keys().at(tolerance.path);
+  if (tolerance.pitch) return true;
+  if (std::holds_alternative<ModificationParameter>(key.store)) return std::abs(value) <= key.range.high;
+  return is_in_range(key, tolerance.added ? value + outside_value(present(scene, tolerance.path), key.quantity) : value);
+}
+
 bool are_of_same_state(const Scene& a, const Scene& b, WorkingFlank of_pair) {
   const bool same_speed = a.speed == b.speed || (std::isnan(a.speed) && std::isnan(b.speed));
   return a.torques == b.torques && same_speed && a.working_flank.value_or(of_pair) == b.working_flank.value_or(of_pair);
@@ -84,6 +91,23 @@ std::vector<Scene> draw_scenes(const Study& study, const std::vector<SceneTolera
     }
   }
   return scenes;
+}
+
+std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScenes& drawn) {
+  const std::vector<SceneTolerance>& tolerances = study.optimise.assessment.tolerances;
+  if (drawn.samples == 0 || tolerances.empty()) return std::nullopt;
+  const std::vector<OperatingState> states = operating_states(study, tolerances);
+  const SampleDesign design(Sampler::Sobol, drawn.samples, static_cast<int>(tolerances.size()), drawn.seed);
+  for (int i = 0; i < drawn.samples; ++i) {
+    const std::vector<double> point = design.point(i);
+    for (std::size_t k = 0; k < tolerances.size(); ++k) {
+      const double value = tolerances[k].distribution.quantile(point[k]);
+      const auto refuses = [&](const OperatingState& state) { return !is_accepted(state.scene, tolerances[k], value); };
+      if (std::ranges::any_of(states, refuses))
+        return RefusedDraw{tolerances[k].path, i, value, allowed_values(*study_keys().at(tolerances[k].path))};
+    }
+  }
+  return std::nullopt;
 }
 
 std::string name_of_draw(int draw) { return "drawn " + std::to_string(draw + 1); }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,18 @@ std::vector<OperatingState> operating_states(const Study& study, const std::vect
 std::vector<Scene> draw_scenes(const Study& study, const DrawnScenes& drawn);
 /// The same from tolerances other than the study's.
 std::vector<Scene> draw_scenes(const Study& study, const std::vector<SceneTolerance>& tolerances, const DrawnScenes& drawn);
+
+/// A value that its key does not accept.
+struct RefusedDraw {
+  std::string path;     ///< of the tolerance
+  int draw{0};          ///< number of the draw, from 0 on
+  double value{0.0};    ///< in the unit of a bare number, with what it is added to
+  std::string allowed;  ///< values of the key
+};
+
+/// The first such value among the draws, nothing where the keys accept all of them. What is added to an amount of a modification may be as large as an amount
+/// may be, either way.
+std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScenes& drawn);
 
 /// "drawn 12" of the draw 11.
 std::string name_of_draw(int draw);

@@ -1,10 +1,14 @@
 #include "studies/tasks/optimise/optimise_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "optimize/solvers/solver.hpp"
 #include "studies/compliance/study_compliance.hpp"
+#include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/study_file/study_life.hpp"
 
 namespace flankwright::studies {
@@ -123,6 +127,25 @@ void check_life_outputs(StudyReading& reading) {
   }
 }
 
+/// Every value that will be drawn is one that its key accepts; where the rest of the study is right.
+void check_draws(StudyReading& reading) {
+  if (!reading.problems.empty()) return;
+  const Study& study = reading.builder.study;
+  const AssessmentTable& assessment = study.optimise.assessment;
+  const ScatterTable& scatter = study.optimise.scatter;
+  std::vector<DrawnScenes> all{assessment.scenes, assessment.validation};
+  if (scatter.asked()) {
+    all.insert(all.end(), {{scatter.draws, scatter.seed}, {scatter.predicted_from, scatter.predicted_seed}, {scatter.fresh, scatter.fresh_seed}});
+  }
+  for (const DrawnScenes& drawn : all) {
+    const std::optional<RefusedDraw> refused = find_refused_draw(study, drawn);
+    if (!refused) continue;
+    return reading.refuse_key(
+        "optimise.tolerances." + refused->path,
+        fmt::format("draw {} of {} has {:.6g}, allowed are draws of {}", refused->draw + 1, drawn.samples, refused->value, refused->allowed));
+  }
+}
+
 }  // namespace
 
 void check_optimise(StudyReading& reading) {
@@ -165,6 +188,7 @@ void check_optimise(StudyReading& reading) {
     if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;
     return reading.refuse_key("load.torque", "task \"optimise\" needs a torque above 0 in every scene: " + scene.name);
   }
+  check_draws(reading);
 }
 
 }  // namespace flankwright::studies

@@ -25,7 +25,7 @@ struct OwnAnswer {
   double peak_stress(int tooth, double begin, double end, double times = 1.0) const;
 };
 
-/// Sharp tips are rounded by 0.002 m_n, see nearly_sharp.
+/// Sharp tips are rounded by 0.002 m_n.
 /// @param torque     on the pinion [N mm]
 /// @param structure    null: thin slices
 /// @param root_stress  null: none

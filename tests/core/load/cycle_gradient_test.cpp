@@ -58,7 +58,7 @@ std::vector<MeshParameter> all_kinds() {
       GearParameter{Member::Wheel, parameter_of("profile_crowning")},    GearParameter{Member::Wheel, parameter_of("twist")},
       GearParameter{Member::Pinion, parameter_of("twist_compensation")}, GearParameter{Member::Wheel, parameter_of("twist_compensation")}};
   for (const NamedMisalignmentParameter& p : misalignment_parameters) {
-    if (p.parameter != &Misalignment::axial_offset) parameters.push_back(p.parameter);  // moves the mesh: axial_offset_test.cpp
+    if (p.parameter != &Misalignment::axial_offset) parameters.push_back(p.parameter);  // moves the mesh
   }
   parameters.push_back(PinionTorque{});
   return parameters;

@@ -173,6 +173,8 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
             p.kind == ParameterKind::Extent ? random.uniform(0.3, 0.9) * gears.data.normal_module : random.uniform(0.5, 4.0) * units::um);
       }
       m->tip_relief.shape = design % 2 == 0 ? ReliefShape::Linear : ReliefShape::Parabolic;
+      m->triangular_tip_relief.shape = m->tip_relief.shape;
+      m->triangular_root_relief.shape = design % 2 == 0 ? ReliefShape::Parabolic : ReliefShape::Linear;
       m->root_relief.shape = design % 2 == 0 ? ReliefShape::Parabolic : ReliefShape::Linear;
     }
     condition.misalignment.mesh_misalignment = random.uniform(-10.0, 10.0) * units::um;

@@ -15,3 +15,13 @@ TEST_CASE("A unit so soft that its misalignment is no small motion says so, and 
   CHECK(!is_said("800"));
   CHECK(is_said("0.01"));
 }
+
+TEST_CASE("A torque that no tooth bears is said to leave no small deflections", "[studies][analysis]") {
+  const auto is_said = [](const std::string& torque) {
+    const Json results = study_texts::results_of(small::helical_pair("", "", torque));
+    return std::ranges::any_of(results.at("notes"),
+                               [](const Json& note) { return note.get<std::string>().find("no small deflection") != std::string::npos; });
+  };
+  CHECK(!is_said("300"));
+  CHECK(is_said("1e7"));
+}

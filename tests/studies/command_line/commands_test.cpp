@@ -246,6 +246,8 @@ TEST_CASE("Report rebuilds the same page from the stored results", "[studies][cl
   CHECK(text_of(folder.path() / "r" / "report.html") == page);
   folder.file("r/results.json", "{ half a fi");
   CHECK(run(folder, {"report", "r"}).exit_code == 2);
+  folder.file("r/results.json", "{}");
+  CHECK_THAT(run(folder, {"report", "r"}).err, Contains("results.json = a damaged or incomplete file"));
   CHECK(text_of(folder.path() / "r" / "report.html") == page);
 }
 
@@ -270,6 +272,27 @@ TEST_CASE("The command test runs every study of a folder and reports those that 
   CHECK(ending.exit_code == 2);
   CHECK_THAT(ending.out, Contains("BAD   set/d-bad.toml") && Contains("nonsense"));
   CHECK(folder.names() == Names{"set"});  // a test leaves no results
+}
+
+TEST_CASE("Values of today are accepted into a copy that meets its expectations", "[studies][cli][slow]") {
+  const ScratchFolder folder;
+  const std::string study = small::analysis() + R"([expect]   # µ-geometry
+"loaded.0.summary.te_mean_um" = { value = 1e3, within = "1 %" }   # a guess
+"loaded.summary.te_peak_to_peak_um" = { max = 0 }
+unloaded.0.carrying_sequence = { is = "sür" }
+)";
+  folder.file("study.toml", study);
+  const Ending ending = run(folder, {"test", "study.toml", "--accept"});
+  CAPTURE(ending.out, ending.err);
+  CHECK(ending.exit_code == 1);  // as it is, the study is not met
+  CHECK_THAT(ending.out, Contains("2 values of today in study.toml.accepted") && Contains("not accepted: loaded[0].summary.te_peak_to_peak_um"));
+  CHECK(text_of(folder.path() / "study.toml") == study);
+  const std::string copy = text_of(folder.path() / "study.toml.accepted");
+  CHECK_THAT(copy, Contains("[expect]   # µ-geometry\n") && Contains(", within = \"1 %\" }   # a guess") && Contains("{ max = 0 }"));
+  folder.file("copy.toml", copy);
+  const Ending again = run(folder, {"test", "copy.toml"});
+  CHECK(again.exit_code == 1);  // the bound
+  CHECK_THAT(again.out, !Contains("te_mean_um") && !Contains("carrying_sequence"));
 }
 
 TEST_CASE("A new study is valid, runs and meets its requirements", "[studies][cli][slow]") {

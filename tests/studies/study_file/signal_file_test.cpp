@@ -205,6 +205,9 @@ TEST_CASE("What is wrong with a study's signal is told by key or by line", "[stu
   CHECK(of.problem(by_signal + ", bins = 0", "speed = 1000\n").key == "load.spectrum.bins");
   CHECK(of.problem(by_signal + ", counting = \"levels\"", "speed = 1000\n").key == "load.spectrum.counting");
   CHECK(of.problem(by_signal + ", torque_factor = -1", "speed = 1000\n").allowed.find("never above 0") != std::string::npos);
+  CHECK(of.problem(by_signal + ", counting = \"rainflow\", repeats = 1e12, torque_factor = 1e6").key.empty());
+  const SignalFolder large("time,torque\n0,1e8\n1,2e8\n2,1e8\n");
+  CHECK(large.problem(by_signal + ", counting = \"rainflow\", torque_factor = 1e6").allowed.find("counts to a torque of") != std::string::npos);
   CHECK(of.problem("signal = 3").key == "load.spectrum.signal");
   CHECK(of.problem("signal = \"no such.csv\"").allowed.find("cannot be read") != std::string::npos);
   CHECK(of.problem("bins = 4").key == "load.spectrum");

@@ -174,6 +174,11 @@ TEST_CASE("What is wrong with strength or lubricant is told by its key", "[studi
   CHECK(with("[lubricant]\nviscosity_40 = 100\ntemperature = 80\nroughness = 0.5\n") == "lubricant.viscosity_100");
   CHECK(with("[lubricant]\nviscosity_40 = 10\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n") == "lubricant.viscosity_40");
   CHECK(with("[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n").empty());
+  // Through both viscosities the relation with temperature gives some 1e10 mm2/s at -40 deg C: no oil.
+  const std::string thick = "[lubricant]\nviscosity_40 = 10000\nviscosity_100 = 100\nroughness = 0.5\n";
+  CHECK(with(thick + "temperature = 80\n").empty());
+  CHECK(with(thick + "temperature = -40\n") == "lubricant.temperature");
+  CHECK(with(thick + "temperature = 80\nbulk_temperature = -40\n") == "lubricant.bulk_temperature");
 }
 
 TEST_CASE("A named material has the limits and life factors of ISO 6336, below what the study gives itself", "[studies][life]") {

@@ -76,6 +76,24 @@ TEST_CASE("A relief with an amount needs its height", "[studies][study-file]") {
   CHECK_NOTHROW(read("[pinion.modification]\nroot_relief = { amount = 0, height = 0 }\n"));
 }
 
+TEST_CASE("A scene in which gears cannot mesh is refused at its line", "[studies][study-file]") {
+  const StudyProblem close = problem_of("[[scenes]]\n[[scenes]]\nname = \"close\"\nmisalignment.centre_distance = -10\n");
+  CHECK(close.key == "scenes.1.misalignment.centre_distance");
+  CHECK(close.line == 16);
+  CHECK_THAT(close.allowed, Catch::Contains("tip meets the mate's root circle"));
+  CHECK_NOTHROW(read("[misalignment]\ncentre_distance = -0.5\n"));                                // addendum 1, dedendum 1.25: 1 mm of clearance
+  CHECK(problem_of("[misalignment]\naxial_offset = 39.9\n").key == "misalignment.axial_offset");  // of faces of 40 mm
+  CHECK_NOTHROW(read("[misalignment]\naxial_offset = 39\n"));
+}
+
+TEST_CASE("Lines of contact of a spur pair cut off no corner for a triangular relief", "[studies][study-file]") {
+  const std::string relief = "[pinion.modification]\ntriangular_tip_relief = { amount = 8, height = 2 }\n";
+  CHECK_NOTHROW(read(relief));
+  const StudyProblem problem = problem_of(relief, {{"pair.helix_angle", "0"}});
+  CHECK(problem.key == "pinion.modification.triangular_tip_relief.amount");
+  CHECK_THAT(problem.allowed, Catch::Contains("a helical pair"));
+}
+
 TEST_CASE("A value outside its range is refused at its line with what is allowed", "[studies][study-file]") {
   using Row = std::tuple<std::string, std::string>;
   const auto [more, allowed] = GENERATE(table<std::string, std::string>({

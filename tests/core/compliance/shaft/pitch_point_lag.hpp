@@ -7,7 +7,7 @@
 
 namespace flankwright {
 
-/// How far the pinion's flank gives way along the normal at the pitch point at mid face, all of the force there [mm].
+/// How far the pinion's flank yields along the normal at the pitch point at mid face, all of the force there [mm].
 /// @param torque  on the pinion [N mm]
 inline auto lag_at_pitch_point(const ShaftPair& shafts, const GearPair& pair, double torque) {
   ContactPoint pitch;

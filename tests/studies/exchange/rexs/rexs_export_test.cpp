@@ -27,7 +27,7 @@ std::string random_study(unsigned seed) {
   const auto relief = [&](double height) {
     return "{ amount = " + number(1, 30) + ", height = " + number(0.3, height) + (random() % 2 == 0U ? ", shape = \"parabolic\" }" : " }");
   };
-  std::string text = "[pair]\nnormal_module = 5\nhelix_angle = " + number(0, 30) + "\npressure_angle = " + number(18, 25) +
+  std::string text = "[pair]\nnormal_module = 5\nhelix_angle = " + number(1, 30) + "\npressure_angle = " + number(18, 25) +
                      "\nworking_flank = " + (random() % 2 == 0U ? "\"right\"" : "\"left\"") +
                      "\ndriver = " + (random() % 2 == 0U ? "\"pinion\"" : "\"wheel\"") + "\n[load]\ntorque = [" + number(10, 500) + ", " +
                      number(501, 900) + "]\n";
@@ -39,7 +39,8 @@ std::string random_study(unsigned seed) {
             ".material]\nyoungs_modulus = " + number(1e5, 2e5) + "\n[" + gear + ".modification]\nlead_crowning = " + number(-10, 20) +
             "\nlead_slope = " + number(-20, 20) + "\naddendum_crowning = " + number(0, 9) + "\ndedendum_crowning = " + number(0, 9) +
             "\nprofile_slope = " + number(-9, 9) + "\ntip_relief = " + relief(2.0) + "\nroot_relief = " + relief(1.0) +
-            "\nend_relief = { amount = " + number(1, 9) + ", length = " + number(2, 9) + " }\ntwist = " + number(-9, 9) + "\n";
+            "\nend_relief = { amount = " + number(1, 9) + ", length = " + number(2, 9) + " }\ntwist = " + number(-9, 9) +
+            "\ntriangular_tip_relief = " + relief(2.0) + "\ntriangular_root_relief = " + relief(1.0) + "\n";
   }
   return text;
 }
@@ -48,18 +49,22 @@ std::string random_study(unsigned seed) {
 void check_same(double a, double b) { CHECK(std::abs(a - b) <= 1.1e-14 * std::abs(a)); }
 void check_same_length(double a, double b) { CHECK(std::abs(a - b) <= 0.5e-9); }
 
+void check_same(const ProfileRelief& a, const ProfileRelief& b) {
+  check_same(a.amount, b.amount);
+  check_same_length(a.height, b.height);
+  CHECK(a.shape == b.shape);
+}
+
 void check_same(const Modification& a, const Modification& b) {
   check_same(a.lead_crowning, b.lead_crowning);
   check_same(a.lead_slope, b.lead_slope);
   check_same(a.addendum_crowning, b.addendum_crowning);
   check_same(a.dedendum_crowning, b.dedendum_crowning);
   check_same(a.profile_slope, b.profile_slope);
-  check_same(a.tip_relief.amount, b.tip_relief.amount);
-  check_same_length(a.tip_relief.height, b.tip_relief.height);
-  CHECK(a.tip_relief.shape == b.tip_relief.shape);
-  check_same(a.root_relief.amount, b.root_relief.amount);
-  check_same_length(a.root_relief.height, b.root_relief.height);
-  CHECK(a.root_relief.shape == b.root_relief.shape);
+  check_same(a.tip_relief, b.tip_relief);
+  check_same(a.root_relief, b.root_relief);
+  check_same(a.triangular_tip_relief, b.triangular_tip_relief);
+  check_same(a.triangular_root_relief, b.triangular_root_relief);
   check_same(a.end_relief.amount, b.end_relief.amount);
   check_same(a.end_relief.length, b.end_relief.length);
   check_same(a.twist, b.twist);

@@ -203,6 +203,25 @@ TEST_CASE("Amounts of another range are carried on to the borders of the flank",
         Approx(44.0 - std::hypot(rb, roll)).epsilon(1e-9));
 }
 
+TEST_CASE("A triangular relief is taken to start along a line of contact", "[studies][rexs][import]") {
+  const std::string component = "type=\"triangular_tip_relief\">" + attribute("triangular_tip_relief_depth", "0.02") +
+                                attribute("triangular_tip_relief_datum_diameter", "85") + attribute("shape_of_relief", "parabolic", "none");
+  const std::string spur = modified({component});
+  CHECK_THAT(import_text(spur).warnings.front(), Contains("lines of contact of a spur gear cut off no corner"));
+  const auto helical = [&](const std::string& file) {
+    return replaced(replaced(file, attribute("helix_angle_reference_diameter", "0", "deg"), attribute("helix_angle_reference_diameter", "20", "deg")),
+                    attribute("helix_angle_reference_diameter", "0", "deg"), attribute("helix_angle_reference_diameter", "-20", "deg"));
+  };
+  const rexs::ImportedStudy imported = import_text(helical(spur));
+  const Study study = study_of(imported);
+  const ProfileRelief& relief = study.modification.pinion.triangular_tip_relief;
+  CHECK(relief.amount == Approx(0.02).epsilon(1e-12));
+  CHECK(relief.height == Approx(1.5).epsilon(1e-9));  // sharp tips of 88 mm
+  CHECK(relief.shape == ReliefShape::Parabolic);
+  CHECK(imported.warnings.empty());
+  CHECK_THAT(imported.text, Contains("taken to start along a line of contact, at the corner z = "));
+}
+
 TEST_CASE("Data without a key of a study are named", "[studies][rexs][import]") {
   const std::string component =
       GENERATE("type=\"triangular_tip_relief\">" + attribute("triangular_tip_relief_depth", "0.01"),

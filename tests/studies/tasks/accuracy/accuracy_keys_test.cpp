@@ -28,6 +28,10 @@ TEST_CASE("The study gives the finest level", "[studies][accuracy]") {
   CHECK(study.accuracy.positions == 256);
 }
 
+TEST_CASE("The cost of accuracy is that of a loaded contact", "[studies][accuracy]") {
+  CHECK_THROWS_WITH(parse_study(study_template("accuracy"), "accuracy.toml", {{"load.torque", "0"}}), Catch::Contains("needs a torque above 0"));
+}
+
 TEST_CASE("A curve from outside has values, and a study with one load case", "[studies][accuracy]") {
   using Overrides = std::vector<Override>;
   const std::string key = "accuracy.outside.transmission_error";

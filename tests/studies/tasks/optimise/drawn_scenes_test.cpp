@@ -92,6 +92,23 @@ misalignment.intersecting = -2
   CHECK(operating_states(of_torque, {}).size() == 2);
 }
 
+TEST_CASE("A draw that a key does not accept is refused before the run", "[studies][assessment]") {
+  const auto problem = [](const std::string& torque, const std::string& samples) {
+    return study_texts::problem_of(
+        "[optimise]\nobjective = \"peak_contact_stress\"\nover = \"worst\"\n"
+        "[load]\ntorque = 300\n[optimise.variables]\n\"pinion.modification.lead_crowning\" = [0, 10]\n"
+        "[optimise.validation]\nsamples = " +
+            samples + "\n[optimise.tolerances]\n\"load.torque\" = " + torque + "\n",
+        {{"task", "\"optimise\""}});
+  };
+  CHECK(problem("{ truncated_normal = [300, 200, 0, 900] }", "1000").key.empty());
+  CHECK(problem("{ normal = [300, 50] }", "1000").key.empty());
+  const StudyProblem negative = problem("{ normal = [300, 200] }", "1000");  // 6.7 % of the normal distribution lie below 0
+  CHECK(negative.key == "optimise.tolerances.load.torque");
+  CHECK(negative.line == 22);
+  CHECK(negative.allowed.find("of 1000 has -") != std::string::npos);
+}
+
 TEST_CASE("A scene depends on the seed and its number only", "[studies][assessment][determinism]") {
   const Study study = tolerant_study();
   const std::vector<Scene> few = draw_scenes(study, {8, 1}), many = draw_scenes(study, {64, 1}), other = draw_scenes(study, {8, 2});

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <string>
+
+#include "studies/analysis/study_results.hpp"
+
+namespace flankwright::studies {
+
+/// A load case in which the teeth approach each other by so much that deflections are not small against them, in words; empty where none does.
+std::string deflection_note(const StudyResults& results);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,87 @@
+#include "studies/results/accepted_expectations.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "studies/results/expectations.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// Where the values of [expect] stand, by the key of their expectation.
+void find_values(const toml::table& table, const std::string& above, std::map<std::string, toml::source_region>& found) {
+  for (const auto& [name, node] : table) {
+    const toml::table* inside = node.as_table();
+    const std::string path = above + std::string(name.str());
+    if (inside == nullptr) continue;
+    const toml::node* value = inside->contains("is") ? inside->get("is") : inside->get("value");
+    if (value != nullptr && !value->is_table()) {
+      found[path] = value->source();
+    } else {
+      find_values(*inside, path + ".", found);
+    }
+  }
+}
+
+/// Byte of a column, which counts characters of UTF-8 from 1.
+std::size_t byte_at(const std::string& text, const toml::source_position& at) {
+  std::size_t byte = 0;
+  for (std::size_t line = 1; line < at.line; ++line) byte = text.find('\n', byte) + 1;
+  const auto goes_on = [&](std::size_t i) { return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
+  for (std::size_t column = 1; column < at.column; ++column) {
+    ++byte;
+    while (goes_on(byte)) ++byte;
+  }
+  return byte;
+}
+
+/// What was found as the file would have it; nothing where no one value stands for all that was found.
+std::optional<std::string> found_value(const Expectation& expectation, const std::vector<Comparison>& found) {
+  if (!expectation.is.empty()) {
+    const std::string& text = found.front().found_text;
+    const bool is_one = !text.empty() && std::ranges::all_of(found, [&](const Comparison& c) { return c.found_text == text; });
+    if (!is_one) return std::nullopt;
+    return text == "true" || text == "false" ? text : Json(text).dump();
+  }
+  const auto is_number = [](const Comparison& c) { return std::isfinite(c.found); };
+  if (std::isnan(expectation.value) || !std::ranges::all_of(found, is_number)) return std::nullopt;
+  const auto [least, largest] = std::ranges::minmax(found, {}, &Comparison::found);
+  return fmt::format("{:.10g}", 0.5 * (least.found + largest.found));
+}
+
+}  // namespace
+
+AcceptedStudy accept_results(const std::string& text, const std::vector<Expectation>& expectations, const Json& results) {
+  AcceptedStudy accepted{text, 0, {}};
+  const toml::table document = toml::parse(text);
+  std::map<std::string, toml::source_region> places;
+  if (const toml::table* expect = document["expect"].as_table()) find_values(*expect, "", places);
+  std::map<std::size_t, std::pair<std::size_t, std::string>> by_byte;  // first byte: end, new text
+  for (const Expectation& expectation : expectations) {
+    const std::vector<Comparison> before = compare({expectation}, results);
+    const auto place = places.find(expectation.key);
+    const auto value = place == places.end() ? std::nullopt : found_value(expectation, before);
+    Expectation now = expectation;
+    if (value && expectation.is.empty()) now.value = std::stod(*value);
+    if (value && !expectation.is.empty()) now.is = before.front().found_text;
+    const std::vector<Comparison> after = compare({now}, results);
+    if (const std::string unmet = differences(after); !unmet.empty()) {
+      accepted.kept.push_back(unmet);
+    } else if (value) {
+      by_byte[byte_at(text, place->second.begin)] = {byte_at(text, place->second.end), *value};
+    }
+  }
+  for (auto change = by_byte.rbegin(); change != by_byte.rend(); ++change) {
+    accepted.text.replace(change->first, change->second.first - change->first, change->second.second);
+    ++accepted.values;
+  }
+  return accepted;
+}
+
+}  // namespace flankwright::studies
