@@ -13,8 +13,9 @@ namespace {
 /// The largest approach of the flanks over the cycle [mm].
 double largest_approach(const LoadedCycle& cycle) {
   double largest = 0.0;
-  for (const LoadedPosition& position : cycle.positions)
-    largest = std::max(largest, position.load.transmission_error - position.gap.total.minCoeff());
+  for (const LoadedPosition& position : cycle.positions) {
+    if (position.gap.total.size() > 0) largest = std::max(largest, position.load.transmission_error - position.gap.total.minCoeff());
+  }
   return largest;
 }
 

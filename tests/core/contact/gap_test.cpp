@@ -195,6 +195,8 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
     m->tip_relief = {20 * um, 1.53, ReliefShape::Parabolic};
     m->root_relief = {15 * um, 1.13, ReliefShape::Linear};
     m->end_relief = {10 * um, 5.1};
+    m->triangular_tip_relief = {9 * um, 4.2, ReliefShape::Parabolic};  // high enough for the lines of this phase
+    m->triangular_root_relief = {8 * um, 3.9, ReliefShape::Parabolic};
     m->twist = 7 * um;
     m->process.kind = process;
   }

@@ -279,7 +279,7 @@ TEST_CASE("Values of today are accepted into a copy that meets its expectations"
   const std::string study = small::analysis() + R"([expect]   # µ-geometry
 "loaded.0.summary.te_mean_um" = { value = 1e3, within = "1 %" }   # a guess
 "loaded.summary.te_peak_to_peak_um" = { max = 0 }
-unloaded.0.carrying_sequence = { is = "sür" }
+unloaded.carrying_sequence = { is = "sür" }
 )";
   folder.file("study.toml", study);
   const Ending ending = run(folder, {"test", "study.toml", "--accept"});

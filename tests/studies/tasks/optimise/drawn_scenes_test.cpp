@@ -93,19 +93,17 @@ misalignment.intersecting = -2
 }
 
 TEST_CASE("A draw that a key does not accept is refused before the run", "[studies][assessment]") {
-  const auto problem = [](const std::string& torque, const std::string& samples) {
-    return study_texts::problem_of(
-        "[optimise]\nobjective = \"peak_contact_stress\"\nover = \"worst\"\n"
-        "[load]\ntorque = 300\n[optimise.variables]\n\"pinion.modification.lead_crowning\" = [0, 10]\n"
-        "[optimise.validation]\nsamples = " +
-            samples + "\n[optimise.tolerances]\n\"load.torque\" = " + torque + "\n",
-        {{"task", "\"optimise\""}});
+  const auto with_torque = [](const std::string& distribution) {
+    return "[optimise]\nobjective = \"peak_contact_stress\"\nover = \"worst\"\n[load]\ntorque = 300\n[optimise.variables]\n"
+           "\"pinion.modification.lead_crowning\" = [0, 10]\n[optimise.validation]\nsamples = 1000\n[optimise.tolerances]\n\"load.torque\" = " +
+           distribution + "\n";
   };
-  CHECK(problem("{ truncated_normal = [300, 200, 0, 900] }", "1000").key.empty());
-  CHECK(problem("{ normal = [300, 50] }", "1000").key.empty());
-  const StudyProblem negative = problem("{ normal = [300, 200] }", "1000");  // 6.7 % of the normal distribution lie below 0
+  const std::vector<Override> optimises{{"task", "\"optimise\""}};
+  CHECK_NOTHROW(study_texts::read(with_torque("{ truncated_normal = [300, 200, 0, 900] }"), optimises));
+  CHECK_NOTHROW(study_texts::read(with_torque("{ normal = [300, 50] }"), optimises));
+  const StudyProblem negative = study_texts::problem_of(with_torque("{ normal = [300, 200] }"), optimises);  // 6.7 % of that lie below 0
   CHECK(negative.key == "optimise.tolerances.load.torque");
-  CHECK(negative.line == 22);
+  CHECK(negative.line == 23);
   CHECK(negative.allowed.find("of 1000 has -") != std::string::npos);
 }
 
