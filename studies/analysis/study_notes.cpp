@@ -157,10 +157,11 @@ void note_closed_backlash(const Study& study, const GearPair& pair, std::vector<
   for (const Scene& scene : study.scenes) {
     const double closer = -scene.misalignment.centre_distance, left = pair.backlash_at(pair.centre_distance - closer);
     if (left >= -units::um) continue;
-    notes.push_back(
-        fmt::format("in the scene \"{}\" the axes are closer by {:.4g} mm: the teeth overlap by {:.4g} um and would jam; only the working "
-                    "flanks are analysed",
-                    scene.name, closer, -left / units::um));
+    notes.push_back(fmt::format(
+        "in the scene \"{}\" the axes are closer by {:.4g} mm: the teeth overlap by {:.4g} um and would jam; only the working "
+        "flanks are analysed{}",
+        scene.name, closer, -left / units::um,
+        pair.backlash > units::um ? "" : " (this pair has no backlash; pinion.tooth_thickness_allowance or pair.centre_distance gives it some)"));
   }
 }
 

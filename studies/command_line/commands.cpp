@@ -33,7 +33,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// One tested study: its line, and whether everything was met.
 /// Writes what was found beside a study, into a copy that no folder of studies takes for one of them.
 std::string accept_beside(const fs::path& path, const Study& study, const Json& results) {
   const AcceptedStudy accepted = accept_results(read_whole(path), study.expect, results);
@@ -44,6 +43,7 @@ std::string accept_beside(const fs::path& path, const Study& study, const Json& 
   return text;
 }
 
+/// One tested study: its line, and whether everything was met.
 struct TestLine {
   std::string text;
   bool met{true};

@@ -52,7 +52,9 @@ std::optional<std::string> found_value(const Expectation& expectation, const std
   const auto is_number = [](const Comparison& c) { return std::isfinite(c.found); };
   if (std::isnan(expectation.value) || !std::ranges::all_of(found, is_number)) return std::nullopt;
   const auto [least, largest] = std::ranges::minmax(found, {}, &Comparison::found);
-  return fmt::format("{:.10g}", 0.5 * (least.found + largest.found));
+  const double middle = 0.5 * (least.found + largest.found);
+  if (middle == 0.0 && !std::isnan(expectation.within_relative)) return std::nullopt;  // no percentage of 0
+  return fmt::format("{:.10g}", middle);
 }
 
 }  // namespace

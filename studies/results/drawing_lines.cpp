@@ -132,27 +132,23 @@ bool is_stated(const ModificationDescriptor& d, const Modification& modification
 }
 
 /// Where a profile relief begins, as diameter and roll length; nothing for other numbers.
-std::string relief_start(const Gear& gear, const FlankFrame& frame, const ModificationDescriptor& d, const Modification& modification) {
-  const double height = d.get(modification);
+std::vector<std::string> relief_start(const Gear& gear, const FlankFrame& frame, const ModificationDescriptor& d, const Modification& modification) {
+  const double height = d.get(modification), start_at_tip = gear.tip_form_radius - height, start_at_root = gear.active_root_radius + height;
   const auto roll = [&](double radius) { return gear.roll_length_at(std::max(radius, gear.base_radius)); };
   if (d.key == "tip_relief.height") {
-    const double start = gear.tip_form_radius - height;
-    return fmt::format("from d_Ca = {:.3f} mm to the tip: roll length {:.3f} to {:.3f} mm", 2.0 * start, roll(start), roll(gear.tip_form_radius));
+    return {fmt::format("from d_Ca = {:.3f} mm to the tip: roll length {:.3f} to {:.3f} mm", 2.0 * start_at_tip, roll(start_at_tip),
+                        roll(gear.tip_form_radius))};
   }
   if (d.key == "root_relief.height") {
-    const double end = gear.active_root_radius + height;
-    return fmt::format("from d_Nf up to d_Cf = {:.3f} mm: roll length {:.3f} to {:.3f} mm", 2.0 * end, roll(gear.active_root_radius), roll(end));
+    return {fmt::format("from d_Nf up to d_Cf = {:.3f} mm: roll length {:.3f} to {:.3f} mm", 2.0 * start_at_root, roll(gear.active_root_radius),
+                        roll(start_at_root))};
   }
-  for (const auto at : {ContactLineCorner::At::Tip, ContactLineCorner::At::Root}) {
-    const bool at_tip = at == ContactLineCorner::At::Tip;
-    if (d.key != (at_tip ? "triangular_tip_relief.height" : "triangular_root_relief.height")) continue;
-    const ContactLineCorner corner(frame, at, height);
-    const double start = at_tip ? gear.tip_form_radius - height : gear.active_root_radius + height;
-    return fmt::format("from {} = {:.3f} mm on the face end z = {:+g} mm ({} = {:.3f} mm of roll), along a line of contact, {:.2f} mm along the {}",
-                       at_tip ? "d_Ea" : "d_Ef", 2.0 * start, corner.face_end(), at_tip ? "L_Ea" : "L_Ef", corner.extent(), corner.reach_along_face(),
-                       at_tip ? "tip" : "start of active profile");
-  }
-  return "";
+  const bool at_tip = d.key == "triangular_tip_relief.height", at_root = d.key == "triangular_root_relief.height";
+  if (!at_tip && !at_root) return {};
+  const ContactLineCorner corner(frame, at_tip ? ContactLineCorner::At::Tip : ContactLineCorner::At::Root, height);
+  return {fmt::format("from {} = {:.3f} mm at z = {:+g} mm, {} = {:.3f} mm", at_tip ? "d_Ea" : "d_Ef", 2.0 * (at_tip ? start_at_tip : start_at_root),
+                      corner.face_end(), at_tip ? "L_Ea" : "L_Ef", corner.extent()),
+          fmt::format("along a line of contact, {:.2f} mm along the {}", corner.reach_along_face(), at_tip ? "tip" : "start of active profile")};
 }
 
 /// The lines of one flank, each with those that explain it.
@@ -175,8 +171,7 @@ std::vector<std::vector<std::string>> amounts_of(const GearPair& pair, Member me
     }
     if (const std::string cut = cut_tolerance(d, set, terms); !cut.empty()) lines.push_back(cut);
     if (d.key == "twist") lines.push_back(fmt::format("    {} = C_Hα at z = +b/2 less C_Hα at z = -b/2", d.symbol));
-    if (const std::string start = relief_start(pair[member], pair.flank_frame(member), d, modification); !start.empty())
-      lines.push_back("    " + start);
+    for (const std::string& start : relief_start(pair[member], pair.flank_frame(member), d, modification)) lines.push_back("    " + start);
     all.push_back(std::move(lines));
   }
   return all;

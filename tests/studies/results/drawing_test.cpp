@@ -235,6 +235,18 @@ TEST_CASE("A relief begins at a diameter and a roll length that are the same poi
   CHECK(std::hypot(roll, pair.pinion.base_radius) == Approx(0.5 * diameter).margin(written));
 }
 
+TEST_CASE("A triangular relief begins on the face end at a diameter whose roll is as far from the tip as it says", "[studies][drawing]") {
+  const GearPair pair = helical();
+  Modification m;
+  set(m, parameter_of("triangular_tip_relief.amount"), 22.0 * units::um);
+  set(m, parameter_of("triangular_tip_relief.height"), 2.0);
+  const auto [height, start] = lines_with(make_drawing(pair, Member::Pinion, m, {.tolerance_class = 6}), "triangular tip relief height");
+  const double radius = 0.5 * number_behind(start, "d_Ea = "), extent = number_behind(start, "L_Ea = ");
+  constexpr double written = 1e-3;  // mm: three decimals of either
+  CHECK(radius == Approx(pair.pinion.tip_form_radius - 2.0).margin(written));
+  CHECK(pair.pinion.roll_length_at(pair.pinion.tip_form_radius) - pair.pinion.roll_length_at(radius) == Approx(extent).margin(2.0 * written));
+}
+
 TEST_CASE("Where one tool grinds both flanks the drawing has the other one's slope and twist, with the opposite sign", "[studies][drawing]") {
   const FlankDrawing drawing = make_drawing(helical(), Member::Pinion, ground(14.0, 20.0), {.tolerance_class = 6, .ties_flanks = true});
   const auto other = std::ranges::find_if(drawing.lines, [](const std::string& line) { return line.starts_with("The left flank"); });
