@@ -36,7 +36,7 @@ struct Lubricant {
   ///     alpha    = alpha_38 (1 + 516 (1/T - 1/311))                                                                         [m^2/N]
   Property pressure_viscosity(double temperature_C) const;
 
-  /// Kinematic viscosities that the relation with temperature holds for [ASTM D341-20, 1.1] [mm^2/s].
+  /// Kinematic viscosities that ASTM D341 covers. Below 2 mm^2/s it has further terms, which are left out here [mm^2/s].
   static constexpr double least_viscosity = 0.21, largest_viscosity = 2e7;
   bool has_viscosity_at(double temperature_C) const;
 

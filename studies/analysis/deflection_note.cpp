@@ -22,7 +22,7 @@ double largest_approach(const LoadedCycle& cycle) {
 }  // namespace
 
 std::string deflection_note(const StudyResults& results) {
-  constexpr double still_small = 0.1;  // approach over the module at most: teeth of steel break at some hundredth of it
+  constexpr double still_small = 0.1;  // approach over the module at most: loaded steel gears stay below a hundredth of it
   const LoadedResult* worst = nullptr;
   double largest = still_small * results.pair.data.normal_module;
   for (const LoadedResult& loaded : results.loaded) {

@@ -7,8 +7,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "studies/results/expectations.hpp"
+#include "studies/study_file/byte_of_column.hpp"
 
 namespace flankwright::studies {
 
@@ -29,16 +31,10 @@ void find_values(const toml::table& table, const std::string& above, std::map<st
   }
 }
 
-/// Byte of a column, which counts characters of UTF-8 from 1.
-std::size_t byte_at(const std::string& text, const toml::source_position& at) {
-  std::size_t byte = 0;
-  for (std::size_t line = 1; line < at.line; ++line) byte = text.find('\n', byte) + 1;
-  const auto goes_on = [&](std::size_t i) { return i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80; };
-  for (std::size_t column = 1; column < at.column; ++column) {
-    ++byte;
-    while (goes_on(byte)) ++byte;
-  }
-  return byte;
+std::size_t byte_at(std::string_view text, const toml::source_position& at) {
+  std::size_t begin = 0;  // of the line
+  for (std::size_t line = 1; line < at.line; ++line) begin = text.find('\n', begin) + 1;
+  return begin + byte_of_column(text.substr(begin), at.column);
 }
 
 /// What was found as the file would have it; nothing where no one value stands for all that was found.

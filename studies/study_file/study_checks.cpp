@@ -88,7 +88,7 @@ void check_relief(StudyReading& reading, Member m, const ModificationDescriptor&
   if (!has_amount && !has_derivative) return;
   if (of_amount.needs_helix && study.pair.helix_angle == 0.0) {
     const std::string asked_by = amount != nullptr ? "optimise.variables." + amount_path : has_amount ? amount_path : "analyse.gradients";
-    return reading.refuse_key(asked_by, "a helical pair: the lines of contact of a spur pair cut off no corner");
+    return reading.refuse_key(asked_by, "allowed is a helical pair: the lines of contact of a spur pair cut off no corner");
   }
   if (extent != nullptr && extent->lower <= 0.0) {
     return reading.refuse_key("optimise.variables." + path, "allowed is a lower bound above 0 mm: the relief is spread over it");

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <utility>
 
+#include "studies/study_file/byte_of_column.hpp"
 #include "studies/study_file/study_schema.hpp"
 #include "studies/study_file/study_syntax.hpp"
 
@@ -151,17 +152,6 @@ void remove_path(toml::table& root, const std::string& path) {
     table = next == nullptr ? nullptr : next->as_table();
   }
   if (table != nullptr) table->erase(parts.back());
-}
-
-/// Code points, the columns of TOML positions, are one to four bytes long.
-std::size_t byte_of_column(const std::string& line, std::size_t column) {
-  std::size_t byte = 0;
-  for (std::size_t passed = 1; passed < column && byte < line.size(); ++passed) {
-    do {
-      ++byte;
-    } while (byte < line.size() && (static_cast<unsigned char>(line[byte]) & 0xC0U) == 0x80U);
-  }
-  return byte;
 }
 
 std::string in_one_line(const std::string& text) {
