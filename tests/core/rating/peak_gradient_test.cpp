@@ -98,8 +98,9 @@ TEST_CASE("Derivatives of located peaks and load factors are those of peaks soug
   check_located(mesh_cases::pair(20, 30, 20, 4, 30));
 }
 
-TEST_CASE("The same for a wide helical and a spur pair", "[.soak][core][load][peaks][gradient]") {
-  check_located(GENERATE(mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(20, 40, 0, 4, 30)));
+TEST_CASE("The same for a wide helical and a spur pair", "[core][load][peaks][gradient]") {
+  // Not 120 mm: there two peaks of the line load are equal within a step, at z of -36 and -15 mm, and the derivative is that of one of them.
+  check_located(GENERATE(mesh_cases::pair(18, 54, 30, 10, 100), mesh_cases::pair(20, 40, 0, 4, 30)));
 }
 
 TEST_CASE("Where one spur pair carries all, peak stress follows the root of the torque", "[core][load][peaks][gradient]") {
