@@ -11,6 +11,16 @@
 
 namespace flankwright {
 
+Eigen::VectorXd RootStressInfluence::Forces::of_table(const Eigen::VectorXd& at_points) const {
+  const Eigen::MatrixXd loaded = along_zeta * at_points.segment(begin, points()).asDiagonal();
+  return (loaded * along_u.transpose()).eval().reshaped();
+}
+
+Eigen::RowVectorXd RootStressInfluence::Forces::at_points(const Eigen::RowVectorXd& of_table) const {
+  const auto table = of_table.reshaped(along_zeta.rows(), along_u.rows());
+  return (table * along_u).cwiseProduct(along_zeta).colwise().sum();
+}
+
 std::vector<Eigen::VectorXd> RootStressInfluence::components(const std::vector<const RootStressInfluence*>& positions,
                                                              const std::vector<Eigen::VectorXd>& forces) {
   struct Use {
@@ -23,7 +33,7 @@ std::vector<Eigen::VectorXd> RootStressInfluence::components(const std::vector<c
   for (std::size_t p = 0; p < positions.size(); ++p) {
     result.push_back(Eigen::VectorXd::Zero(3 * std::ssize(positions[p]->stations)));
     std::vector<Eigen::VectorXd> of_table;
-    for (const Forces& f : positions[p]->forces_) of_table.push_back(f.weights * forces[p].segment(f.begin, f.weights.cols()));
+    for (const Forces& f : positions[p]->forces_) of_table.push_back(f.of_table(forces[p]));
     for (const Response& r : positions[p]->responses_) {
       if (of_table[r.forces].isZero(0.0)) continue;  // a line without load
       auto uses = std::ranges::find(tables, r.table.get(), [](const auto& known) { return known.first; });
@@ -56,7 +66,7 @@ Eigen::Matrix3Xd RootStressInfluence::components_of(Eigen::Index station) const 
     const Eigen::Index row = 3 * (station - r.first_station);
     if (row < 0 || row >= r.table->rows()) continue;
     const Forces& f = forces_[r.forces];
-    result.middleCols(f.begin, f.weights.cols()).noalias() += r.table->middleRows<3>(row) * f.weights;
+    for (Eigen::Index k = 0; k < 3; ++k) result.row(k).segment(f.begin, f.points()) += f.at_points(r.table->row(row + k));
   }
   for (const Added& a : added_) {
     const Eigen::Index place = station - a.first_station;
@@ -96,13 +106,17 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
     std::vector<int> loaded_teeth;  // counted on the gear, one for every new entry of `forces`
     for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
       while (end < points.size() && points[end].tooth == points[begin].tooth) ++end;
-      Eigen::MatrixXd weights(table->grid.size(), static_cast<Eigen::Index>(end - begin));
+      const auto count = static_cast<Eigen::Index>(end - begin);
+      RootStressInfluence::Forces on_line{static_cast<Eigen::Index>(begin), Eigen::MatrixXd(std::ssize(table->grid.zetas()), count),
+                                          Eigen::MatrixXd(std::ssize(table->grid.us()), count)};
       std::vector<FlankStation> places;
       std::vector<double> lengths;
       for (std::size_t i = begin; i < end; ++i) {
         places.push_back(flank_station(pair_, member, points[i], axial_offset));
         lengths.push_back(points[i].weight / pair_.data.normal_module);
-        weights.col(static_cast<Eigen::Index>(i - begin)) = per_unit_module * table->grid.weights(places.back());
+        const StationGrid::Factors factors = table->grid.weight_factors(places.back());
+        on_line.along_zeta.col(static_cast<Eigen::Index>(i - begin)) = factors.along_zeta;
+        on_line.along_u.col(static_cast<Eigen::Index>(i - begin)) = per_unit_module * factors.along_u;
       }
       if (correction) {
         of_pair[points[begin].tooth] = {0, static_cast<Eigen::Index>(begin),
@@ -110,7 +124,7 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
                                         components_[member]};
       }
       loaded_teeth.push_back(gear_tooth(member, points[begin].tooth));
-      forces.push_back({static_cast<Eigen::Index>(begin), std::move(weights)});
+      forces.push_back(std::move(on_line));
     }
     for (const int tooth : teeth) {
       for (std::size_t k = 0; k < loaded_teeth.size(); ++k) {

@@ -27,10 +27,16 @@ class RootStressInfluence {
  public:
   std::vector<RootStation> stations;
 
-  /// Points `begin` .. `begin` + columns of `weights`, as forces of a table.
+  /// Points `begin` .. `begin` + points(), as forces of a table: those of point p are the outer product of column p of both factors.
   struct Forces {
     Eigen::Index begin{0};
-    Eigen::MatrixXd weights;  ///< forces of the table x points [-]
+    Eigen::MatrixXd along_zeta, along_u;  ///< StationGrid::weight_factors() of every point, a column each [-]; along_u over m_n^2 [1/mm^2]
+
+    Eigen::Index points() const { return along_u.cols(); }
+    /// Forces of the table, of those at all points of the position.
+    Eigen::VectorXd of_table(const Eigen::VectorXd& at_points) const;
+    /// The other way round: of a row of the table the values at the points, 1 x points().
+    Eigen::RowVectorXd at_points(const Eigen::RowVectorXd& of_table) const;
   };
   /// A table for the stress at some points of the fillets.
   struct Response {

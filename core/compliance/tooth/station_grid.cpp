@@ -85,9 +85,12 @@ void StationGrid::require_on_flank(const FlankStation& station) const {
   within("place.zeta", station.zeta, 0, face_width());
 }
 
+StationGrid::Factors StationGrid::weight_factors(const FlankStation& station) const {
+  return {u_.weights(within("place.u", station.u, -1, 1)), zeta_.weights(within("place.zeta", station.zeta, 0, face_width()))};
+}
+
 Eigen::VectorXd StationGrid::weights(const FlankStation& station) const {
-  const Eigen::VectorXd along_u = u_.weights(within("place.u", station.u, -1, 1));
-  const Eigen::VectorXd along_zeta = zeta_.weights(within("place.zeta", station.zeta, 0, face_width()));
+  const auto [along_u, along_zeta] = weight_factors(station);
   return (along_zeta * along_u.transpose()).reshaped();
 }
 

@@ -53,6 +53,12 @@ class StationGrid {
   /// Weights of a table's values in the value at (u, zeta), size(); the tooth does not matter.
   /// @throws InvalidInput  "place.u" or "place.zeta" off the flank, by more than round-off (1e-9)
   Eigen::VectorXd weights(const FlankStation& station) const;
+  /// Their factors: weights(place) = (along_zeta along_u^T).reshaped().
+  struct Factors {
+    Eigen::VectorXd along_u, along_zeta;
+  };
+  /// @throws InvalidInput  as weights()
+  Factors weight_factors(const FlankStation& station) const;
 
  private:
   SplineAxis u_, zeta_;

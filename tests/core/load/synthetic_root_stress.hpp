@@ -42,7 +42,7 @@ class SyntheticRootStress final : public PairRootStress {
     // The points are the forces of the table.
     return {stations,
             table.cols(),
-            {{0, Eigen::MatrixXd::Identity(table.cols(), table.cols())}},
+            {{0, Eigen::MatrixXd::Identity(table.cols(), table.cols()), Eigen::MatrixXd::Ones(1, table.cols())}},
             {{0, 0, std::make_shared<const Eigen::MatrixXd>(table)}}};
   }
 
