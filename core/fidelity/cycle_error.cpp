@@ -153,16 +153,8 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
 
 CycleErrors CycleErrorParts::sum() const {
   CycleErrors both;
-  both.te_mean = points.te_mean + positions.te_mean;
-  both.te_peak_to_peak = points.te_peak_to_peak + positions.te_peak_to_peak;
+  for (const auto of : CycleErrors::single()) both.*of = points.*of + positions.*of;
   for (std::size_t k = 0; k < points.te_harmonics.size(); ++k) both.te_harmonics.push_back(points.te_harmonics[k] + positions.te_harmonics[k]);
-  both.peak_line_load = points.peak_line_load + positions.peak_line_load;
-  both.peak_contact_stress = points.peak_contact_stress + positions.peak_contact_stress;
-  both.peak_root_stress = points.peak_root_stress + positions.peak_root_stress;
-  both.edge_stress = points.edge_stress + positions.edge_stress;
-  both.tip_edge_share = points.tip_edge_share + positions.tip_edge_share;
-  both.load_factor = points.load_factor + positions.load_factor;
-  both.mean_stiffness = points.mean_stiffness + positions.mean_stiffness;
   return both;
 }
 
@@ -192,23 +184,13 @@ CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCyc
   of_finer.te_mean *= of_order_one;
   of_finer.te_peak_to_peak *= of_order_one;
   for (double& harmonic : of_finer.te_harmonics) harmonic *= of_order_one;
-  const auto narrower = [&](auto error, auto figure) {
-    return std::fmin(stated.*error, of_finer.*error + std::abs(summary.*figure - finer_summary.*figure));  // the one that is a number
-  };
+  const auto narrower = [](double by_change, double given) { return std::fmin(given, by_change); };  // the one that is a number
   CycleErrors errors;
-  errors.te_mean = narrower(&CycleErrors::te_mean, &CycleSummary::te_mean);
-  errors.te_peak_to_peak = narrower(&CycleErrors::te_peak_to_peak, &CycleSummary::te_peak_to_peak);
+  for (const auto of : CycleErrors::single()) errors.*of = narrower(of_finer.*of + std::abs(summary.*of - finer_summary.*of), stated.*of);
   for (std::size_t k = 0; k < stated.te_harmonics.size(); ++k) {
     const double change = std::abs(summary.te_harmonics[k] - finer_summary.te_harmonics[k]);
-    errors.te_harmonics.push_back(std::fmin(stated.te_harmonics[k], of_finer.te_harmonics[k] + change));
+    errors.te_harmonics.push_back(narrower(of_finer.te_harmonics[k] + change, stated.te_harmonics[k]));
   }
-  errors.peak_line_load = narrower(&CycleErrors::peak_line_load, &CycleSummary::peak_line_load);
-  errors.peak_contact_stress = narrower(&CycleErrors::peak_contact_stress, &CycleSummary::peak_contact_stress);
-  errors.peak_root_stress = narrower(&CycleErrors::peak_root_stress, &CycleSummary::peak_root_stress);
-  errors.edge_stress = narrower(&CycleErrors::edge_stress, &CycleSummary::edge_stress);
-  errors.tip_edge_share = narrower(&CycleErrors::tip_edge_share, &CycleSummary::tip_edge_share);
-  errors.load_factor = narrower(&CycleErrors::load_factor, &CycleSummary::load_factor);
-  errors.mean_stiffness = narrower(&CycleErrors::mean_stiffness, &CycleSummary::mean_stiffness);
   return errors;
 }
 

@@ -6,17 +6,8 @@
 
 namespace flankwright {
 
-/// Estimated discretisation errors of a CycleSummary, each in its figure's unit and >= 0; NaN: not estimated.
-struct CycleErrors {
-  double te_mean{not_given}, te_peak_to_peak{not_given};               ///< [mm]
-  std::vector<double> te_harmonics;                                    ///< orders 1 .. 10 [mm]; empty: not estimated
-  double peak_line_load{not_given};                                    ///< [N/mm]
-  double peak_contact_stress{not_given}, peak_root_stress{not_given};  ///< [MPa]
-  double edge_stress{not_given};                                       ///< [MPa]
-  double tip_edge_share{not_given};                                    ///< [-]
-  double load_factor{not_given};                                       ///< [-]
-  double mean_stiffness{not_given};                                    ///< [N/(mm um)]
-};
+/// Estimated discretisation errors of a CycleSummary, each in its figure's unit and >= 0; NaN, or no harmonics: not estimated.
+using CycleErrors = CycleValues<double, std::vector<double>>;
 
 /// Errors by what brings them: points along the contact lines, or positions over the cycle.
 struct CycleErrorParts {

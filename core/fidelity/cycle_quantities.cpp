@@ -49,6 +49,10 @@ Eigen::MatrixXd te_rms_slope(const S& s, const G& g) {
   return sum;
 }
 
+Eigen::MatrixXd stiffness_variation_slope(const S& s, const G& g) {
+  return (g.largest_stiffness - g.least_stiffness - s.stiffness_variation() * g.mean_stiffness) / s.mean_stiffness;
+}
+
 constexpr std::array rows{
     CycleQuantity{.name = "te_peak_to_peak",
                   .key = "te_peak_to_peak_um",
@@ -178,7 +182,7 @@ constexpr std::array rows{
                   .words = "variation of the mesh stiffness",
                   .topic = "Stiffness",
                   .values = one<&S::stiffness_variation>,
-                  .gradients = slope<&G::stiffness_variation>},
+                  .gradients = stiffness_variation_slope},
     CycleQuantity{.name = "load_factor",
                   .key = "load_factor",
                   .words = "load factor",

@@ -102,8 +102,6 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
   const auto [least, largest] = std::ranges::minmax_element(cycle.positions, {}, &LoadedPosition::stiffness);
   gradient.least_stiffness = stiffness_derivative(cycle, *least);
   gradient.largest_stiffness = stiffness_derivative(cycle, *largest);
-  gradient.stiffness_variation =
-      (gradient.largest_stiffness - gradient.least_stiffness - summary.stiffness_variation() * gradient.mean_stiffness) / summary.mean_stiffness;
 
   Eigen::Index highest = 0, lowest = 0;
   const Eigen::VectorXd te = cycle.transmission_error();

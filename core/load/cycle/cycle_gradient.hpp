@@ -23,17 +23,13 @@ Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCy
 /// Derivatives of a CycleSummary with respect to the parameters of analyse_cycle(), 1 x m each, exact while points keep
 /// their contact and peaks their location. A peak's derivative is that of the point and position where it is (the first
 /// of equals); a maximum over fixed positions has it on one side at least.
-struct CycleGradient {
-  Eigen::RowVectorXd te_peak_to_peak, te_mean;
-  Eigen::MatrixXd te_harmonics;  ///< row per order of CycleSummary::te_harmonics
-  Eigen::RowVectorXd peak_line_load, peak_contact_stress, edge_stress, tip_edge_share, load_factor;
-  Eigen::RowVectorXd mean_stiffness, least_stiffness, largest_stiffness, stiffness_variation;
+/// There is none of figures that the summary does not have.
+struct CycleGradient : CycleValues<Eigen::RowVectorXd, Eigen::MatrixXd> {
   /// Of RootStressPeak; empty where the model has no root stress.
   struct Root {
     Eigen::RowVectorXd stress, tangent_stress;
   };
   Root pinion_root_stress, wheel_root_stress;
-  Eigen::RowVectorXd peak_root_stress;  ///< empty where the model has no root stress
 };
 /// @param cycle  usable()
 CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle, const CycleSummary& summary);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/load/solve/load_problem.hpp"
+#include "core/load/cycle/cycle_values.hpp"
 #include "core/load/cycle/loaded_cycle.hpp"
 #include "core/load/cycle/mesh_model.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
@@ -66,25 +67,13 @@ struct RootStations {
 /// Index of the point with the largest stress among these at one position, the first of equals; -1 where there is none.
 Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootStations& among);
 
-/// The main figures of a cycle.
-struct CycleSummary {
-  double te_peak_to_peak{not_given};      ///< of f_t over the positions [mm]
-  std::vector<double> te_harmonics;       ///< amplitudes of orders 1 .. 10 of the base pitch [mm]; empty for explicit phases
-  double te_mean{not_given};              ///< [mm]
-  double peak_line_load{not_given};       ///< [N/mm]
-  double peak_contact_stress{not_given};  ///< on edges included [MPa]
-  double edge_stress{not_given};          ///< on tip edges alone, 0 where contact does not reach one [MPa]; NaN without the effect edge_contact
-  double tip_edge_share{not_given};       ///< largest part of the force that tip roundings carry at a position [-], 0 .. 1; NaN as edge_stress
-  double mean_stiffness{not_given};       ///< Haddad eq. 2.17b [N/(mm um)]
-  double least_stiffness{not_given}, largest_stiffness{not_given};                                       ///< eq. 2.16b over the positions [N/(mm um)]
-  double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]
-  /// Peak line load over MeshModel::mean_line_load() [-].
-  double load_factor{not_given};
-  double worst_kkt_residual{not_given};
-  double worst_condition{not_given};                     ///< largest LoadDistribution::condition [-]
+/// The main figures of a cycle. NaN: not computed; no harmonics of explicit phases.
+struct CycleSummary : CycleValues<double, std::vector<double>> {
   RootStressPeak pinion_root_stress, wheel_root_stress;  ///< over the positions; NaN where the model has none
-  double peak_root_stress{not_given};                    ///< the larger of both [MPa]
+  double worst_kkt_residual{not_given};
+  double worst_condition{not_given};  ///< largest LoadDistribution::condition [-]
 
+  double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]
   /// Raises what is a peak over positions, root stress aside, to that of one more.
   void include(const LoadedPosition& position);
 };

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
+#include "core/fidelity/cycle_quantities.hpp"
 #include "core/rating/position_gradient.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"
@@ -133,19 +134,11 @@ Outputs outputs(const MeshModel& model, const Scene& scene, const std::vector<Me
   }
   const CycleSummary summary = summarise(model, cycle);
   const CycleGradient gradient = summary_gradient(model, cycle, summary);
-  all.add("te_peak_to_peak", summary.te_peak_to_peak, gradient.te_peak_to_peak);
-  all.add("te_mean", summary.te_mean, gradient.te_mean);
-  all.add("te_harmonics", Eigen::Map<const Eigen::VectorXd>(summary.te_harmonics.data(), std::ssize(summary.te_harmonics)), gradient.te_harmonics);
-  all.add("peak_line_load", summary.peak_line_load, gradient.peak_line_load);
-  all.add("peak_contact_stress", summary.peak_contact_stress, gradient.peak_contact_stress);
-  all.add("load_factor", summary.load_factor, gradient.load_factor);
-  all.add("mean_stiffness", summary.mean_stiffness, gradient.mean_stiffness);
-  all.add("least_stiffness", summary.least_stiffness, gradient.least_stiffness);
-  all.add("largest_stiffness", summary.largest_stiffness, gradient.largest_stiffness);
-  all.add("stiffness_variation", summary.stiffness_variation(), gradient.stiffness_variation);
-  all.add("peak_root_stress", summary.peak_root_stress, gradient.peak_root_stress);
-  all.add("pinion_root_stress", summary.pinion_root_stress.stress, gradient.pinion_root_stress.stress);
-  all.add("wheel_root_stress", summary.wheel_root_stress.stress, gradient.wheel_root_stress.stress);
+  for (const CycleQuantity& quantity : cycle_quantities()) {
+    const std::vector<double> values = quantity.values(summary);
+    if (std::isnan(values.front())) continue;  // what needs rounded tip edges
+    all.add(std::string(quantity.name), Eigen::Map<const Eigen::VectorXd>(values.data(), std::ssize(values)), quantity.gradients(summary, gradient));
+  }
   all.add("pinion_root_tangent", summary.pinion_root_stress.tangent_stress, gradient.pinion_root_stress.tangent_stress);
   all.add("wheel_root_tangent", summary.wheel_root_stress.tangent_stress, gradient.wheel_root_stress.tangent_stress);
   return all;
