@@ -39,8 +39,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
     models.try_emplace(placement_of(task_.gap, scene.condition, task_.shafts.get(), scene.torque));
   }
-  tbb::this_task_arena::isolate(
-      [&] { tbb::parallel_for_each(models, [this](auto& known) { known.second = std::make_shared<const MeshModel>(mesh(known.first)); }); });
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for_each(models, [this](auto& known) { known.second = shared_mesh(known.first); }); });
   for (const DesignScene& scene : task_.scenes) {
     models_.push_back(models.at(placement_of(task_.gap, scene.condition, task_.shafts.get(), scene.torque)));
   }
@@ -50,9 +49,15 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
   }
 }
 
-MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
+MeshModel DesignProblem::made_mesh(const MeshPlacement& placement) const {
   return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement, task_.structure.get(), task_.root_stress.get(),
                          task_.shafts.get(), for_each_in_parallel);
+}
+
+std::shared_ptr<const MeshModel> DesignProblem::shared_mesh(const MeshPlacement& placement) const {
+  const auto make = [&] { return made_mesh(placement); };
+  if (!task_.meshes) return std::make_shared<const MeshModel>(make());
+  return task_.meshes->mesh({placement, task_.resolution, task_.effects.list(), task_.structure, task_.root_stress, task_.shafts}, make);
 }
 
 void DesignProblem::find_fillets() {
@@ -207,7 +212,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
     return analyse_cycle(mesh_model, of_scene, torque, parameters, {}, root_stresses_, earlier);
   };
   if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
-  const MeshPlaced placed = [this](const MeshPlacement& placement) { return mesh(placement); };
+  const MeshPlaced placed = [this](const MeshPlacement& placement) { return made_mesh(placement); };
   return analyse(with_perturbed_meshes(model(scene), placed, parameters));
 }
 

@@ -129,7 +129,8 @@ class DesignProblem {
   std::vector<double> scene_weights() const;
 
  private:
-  MeshModel mesh(const MeshPlacement& placement) const;
+  MeshModel made_mesh(const MeshPlacement& placement) const;
+  std::shared_ptr<const MeshModel> shared_mesh(const MeshPlacement& placement) const;
   FlankCondition condition(int scene, const PerGear<Modification>& modification) const;
   void find_fillets();
   /// @param earlier  one that loads start from; without cycles: none

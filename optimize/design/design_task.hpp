@@ -12,6 +12,7 @@
 #include "core/load/cycle/mesh_model.hpp"
 #include "optimize/design/aggregate.hpp"
 #include "optimize/design/design_output.hpp"
+#include "optimize/design/mesh_store.hpp"
 
 namespace flankwright {
 
@@ -152,6 +153,7 @@ struct DesignTask {
   std::shared_ptr<const PairCompliance> search_structure{};  ///< cheaper and nearly the same, to search by before `structure`; null: none
   std::shared_ptr<const PairRootStress> root_stress;         ///< null: none
   std::shared_ptr<const PairCompliance> shafts;              ///< null: rigid
+  std::shared_ptr<MeshStore> meshes{};                       ///< of the same pair and materials, to share with others; null: none
   PerGear<Modification> modification;                        ///< values of parameters that are not varied, and the start of those that are
   std::shared_ptr<const LifeModel> life{};                   ///< of the outputs that need it; null: none
   std::vector<DesignScene> scenes;                           ///< the first is the nominal one

@@ -13,6 +13,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
+#include "core/load/cycle/mesh_root_stress.hpp"
 #include "core/rating/shaft_misalignment.hpp"
 #include "optimize/design/for_each_in_parallel.hpp"
 #include "studies/analysis/refine_resolution.hpp"
@@ -134,20 +135,31 @@ std::vector<std::size_t> StudyRun::models_for(const std::vector<DesignScene>& sc
     if (is_new) unknown.push_back(placement);
     models.push_back(it->second);
   }
-  for (MeshModel& model : meshes(unknown, {results_.study.fidelity.quadrature, results_.phases}, gradient_parameters())) {
-    results_.models.push_back(std::move(model));
-  }
+  structures();
+  std::vector<MeshModel> made(unknown.size());
+  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) { made[i] = mesh_of_load_cases(unknown[i]); });
+  std::ranges::move(made, std::back_inserter(results_.models));
   return models;
 }
 
-std::vector<MeshModel> StudyRun::meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
-                                        const std::vector<MeshParameter>& parameters) {
-  std::vector<MeshModel> made(placements.size());
-  if (placements.empty()) return made;
+std::shared_ptr<const MeshModel> StudyRun::mesh_of_search(const MeshPlacement& placement, const MeshResolution& resolution) const {
+  const GearStructures& of = results_.structures;
+  MeshKey key{placement, resolution, results_.mesh_effects.list(), of.pair, of.root_stress, results_.shafts};
+  if (auto known = mesh_store_->find(key)) return known;
+  key.root_stress = nullptr;  // that of a search which does not ask for it
+  return mesh_store_->find(key);
+}
+
+MeshModel StudyRun::mesh_of_load_cases(const MeshPlacement& placement) {
+  const MeshResolution resolution{results_.study.fidelity.quadrature, results_.phases};
   const PairRootStress* root_stress = structures().root_stress.get();
-  tbb::parallel_for(std::size_t{0}, made.size(),
-                    [&](std::size_t i) { made[i] = mesh(placements[i], resolution, root_stress, results_.shafts.get(), parameters); });
-  return made;
+  const std::vector<MeshParameter> parameters = gradient_parameters();
+  const auto known = parameters.empty() ? mesh_of_search(placement, resolution) : nullptr;
+  if (!known) return mesh(placement, resolution, root_stress, results_.shafts.get(), parameters);
+  MeshModel model = *known;
+  const bool lacks_root_stress = root_stress != nullptr && model.positions.front().root_stress.stations.empty();
+  if (lacks_root_stress) add_root_stress_influence(model, *root_stress, for_each_in_parallel);
+  return model;
 }
 
 std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<MeshPlacement>& placements) {
@@ -159,8 +171,10 @@ std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<Mesh
   for (const MeshPlacement& placement : placements) {
     if (coarse_models_.try_emplace(placement).second) unknown.push_back(placement);
   }
-  std::vector<MeshModel> made = meshes(unknown, {quadrature, coarse_phases(results_.phases)}, {});
-  for (std::size_t i = 0; i < unknown.size(); ++i) coarse_models_[unknown[i]] = std::move(made[i]);
+  const MeshResolution resolution{quadrature, coarse_phases(results_.phases)};
+  const PairRootStress* root_stress = structures().root_stress.get();
+  tbb::parallel_for(std::size_t{0}, unknown.size(),
+                    [&](std::size_t i) { coarse_models_.at(unknown[i]) = mesh(unknown[i], resolution, root_stress, results_.shafts.get(), {}); });
   for (std::size_t i = 0; i < coarse.size(); ++i) coarse[i] = &coarse_models_.at(placements[i]);
   return coarse;
 }
@@ -316,7 +330,9 @@ void StudyRun::hold_against_finer(std::size_t first) {
   quadrature.intervals *= 2;
   const std::vector<std::pair<MeshPlacement, std::vector<LoadedResult*>>> placed(wide.begin(), wide.end());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
-    const MeshModel finer = mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {});
+    std::shared_ptr<const MeshModel> known = mesh_of_search(placed[i].first, {quadrature, results_.phases});
+    if (!known) known = std::make_shared<const MeshModel>(mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {}));
+    const MeshModel& finer = *known;
     for (LoadedResult* loaded : placed[i].second) {
       const LoadedCycle cycle = analyse_halves(finer, loaded->condition, loaded->torque);
       const CycleErrors stated = loaded->resolved.error_parts.points;

@@ -27,6 +27,8 @@ class StudyRun {
   const Study& study() const { return results_.study; }
   StudyResults& results() { return results_; }
   const ProgressReport& progress() const { return progress_; }
+  /// Meshes that a search makes, for the load cases too.
+  const std::shared_ptr<MeshStore>& mesh_store() const { return mesh_store_; }
   void report(const std::string& label, int done, int total, const std::string& remark = {}) const;
 
   /// The subject of all fidelity levels of this study.
@@ -76,8 +78,9 @@ class StudyRun {
  private:
   MeshModel mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress, const PairCompliance* shafts,
                  const std::vector<MeshParameter>& parameters);
-  std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
-                                const std::vector<MeshParameter>& parameters);
+  /// Null where no search has made it.
+  std::shared_ptr<const MeshModel> mesh_of_search(const MeshPlacement& placement, const MeshResolution& resolution) const;
+  MeshModel mesh_of_load_cases(const MeshPlacement& placement);
   /// Positions that are known already are not made again where there are no parameters. May be called by several threads at a time.
   /// @param shafts_deflect  false: they are rigid
   MeshAt mesh_at(const FlankCondition& condition, double torque, bool shafts_deflect, const std::vector<MeshParameter>& parameters,
@@ -99,6 +102,7 @@ class StudyRun {
   const ProgressReport& progress_;
   PerFigure budget_;
   StudyResults results_;
+  std::shared_ptr<MeshStore> mesh_store_{std::make_shared<MeshStore>()};
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
   /// By placement, intervals and whether shafts deflect: scenes and the parts of a condition are looked at in the same phases to begin with.

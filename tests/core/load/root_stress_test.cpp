@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/load/cycle/mesh_root_stress.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
 #include "tests/reference/eigenvalues.hpp"
@@ -48,6 +49,28 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
   CHECK(summary.pinion_root_stress.station.member == Member::Pinion);
   CHECK(summary.wheel_root_stress.station.member == Member::Wheel);
   CHECK(pinion > 0);
+}
+
+TEST_CASE("A mesh that gets its root stress later has that of one made with it", "[core][load][root-stress]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const mesh_cases::SyntheticRootStress root_stress(gears);
+  const MeshResolution resolution{{QuadratureRule::Graded, 4}, equally_spaced_phases(3)};
+  const bool with_root_stress = GENERATE(true, false);
+  const MeshEffects effects = with_root_stress ? MeshEffects() : MeshEffects::all_but({"root_stress"});
+  MeshPlacement placement;
+  placement.misalignment.axial_offset = 4.0;
+  const auto mesh = [&](const PairRootStress* model) {
+    return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, effects, placement, nullptr, model);
+  };
+  const MeshModel made_with = mesh(&root_stress);
+  MeshModel added = mesh(nullptr);
+  add_root_stress_influence(added, root_stress);
+  for (std::size_t k = 0; k < added.positions.size(); ++k) {
+    const RootStressInfluence &expected = made_with.positions[k].root_stress, &found = added.positions[k].root_stress;
+    REQUIRE(expected.stations.empty() == !with_root_stress);
+    REQUIRE(found.stations.size() == expected.stations.size());
+    for (Eigen::Index i = 0; i < std::ssize(found.stations); ++i) CHECK(found.components_of(i) == expected.components_of(i));
+  }
 }
 
 TEST_CASE("Root stress left for later is the same to the bit", "[core][load][root-stress]") {
