@@ -1,6 +1,9 @@
 #include "studies/base/csv.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
+#include <cmath>
 #include <string_view>
 
 namespace flankwright::studies {
@@ -25,5 +28,7 @@ std::string csv_field(const std::string& text) {
   for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
+
+std::string csv_field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : std::string(); }
 
 }  // namespace flankwright::studies

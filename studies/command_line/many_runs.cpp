@@ -96,10 +96,9 @@ std::string csv_of(const std::vector<Line>& lines) {
   std::string csv = "study,task,state,seconds,total_contact_ratio";
   for (const CycleEntry& column : columns()) csv += fmt::format(",{}", column.key());
   csv += "\n";
-  const auto number = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); };
   for (const Line& line : lines) {
-    csv += fmt::format("{},{},{},{},{}", csv_field(line.study), line.task, line.state, number(line.seconds), number(line.contact_ratio));
-    for (std::size_t i = 0; i < columns().size(); ++i) csv += fmt::format(",{}", i < line.worst.size() ? number(line.worst[i]) : std::string());
+    csv += fmt::format("{},{},{},{},{}", csv_field(line.study), line.task, line.state, csv_field(line.seconds), csv_field(line.contact_ratio));
+    for (std::size_t i = 0; i < columns().size(); ++i) csv += fmt::format(",{}", i < line.worst.size() ? csv_field(line.worst[i]) : std::string());
     csv += "\n";
   }
   return csv;

@@ -82,12 +82,11 @@ std::string comparison_csv(const std::vector<ComparedRun>& runs, const ComparedR
     csv += fmt::format(",{},{}", csv_field("difference " + runs[run].name), csv_field("percent " + runs[run].name));
   }
   csv += "\n";
-  const auto field = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); };
   for (const ComparedValue& value : compared.values) {
     csv += fmt::format("{},{},{}", csv_field(value.section), csv_field(value.name), csv_field(value.unit));
-    for (const double of : value.values) csv += fmt::format(",{}", field(of));
+    for (const double of : value.values) csv += fmt::format(",{}", csv_field(of));
     for (std::size_t run = 1; run < runs.size(); ++run) {
-      csv += fmt::format(",{},{}", field(value.values[run] - value.values.front()), field(percent * value.difference(run)));
+      csv += fmt::format(",{},{}", csv_field(value.values[run] - value.values.front()), csv_field(percent * value.difference(run)));
     }
     csv += "\n";
   }

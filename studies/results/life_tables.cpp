@@ -130,12 +130,11 @@ std::string life_csv(const StudyResults& results) {
       "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety,flash_temperature_K,contact_temperature_degC,scuffing_safety,"
       "loss_factor_error,loss_power_W_error,specific_film_thickness_error,micropitting_safety_error,flash_temperature_K_error,contact_temperature_degC_error,"
       "scuffing_safety_error\n";
-  const auto field = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); };
   for (const CaseLife& of : results.life->cases) {
     const LoadedResult& loaded = results.loaded[of.loaded];
     for (const Member m : each_gear) {
       csv += fmt::format("{},{},{},{},{},{}", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
-                         loaded.bin < 0 ? std::string() : std::to_string(loaded.bin), field(loaded.operation.revolutions), name_of(m));
+                         loaded.bin < 0 ? std::string() : std::to_string(loaded.bin), csv_field(loaded.operation.revolutions), name_of(m));
       for (const double value : {of.contact_damage[m],
                                  of.root_damage[m],
                                  of.contact_safety[m],
@@ -158,7 +157,7 @@ std::string life_csv(const StudyResults& results) {
                                  of.errors.flash_temperature,
                                  of.errors.contact_temperature,
                                  of.errors.scuffing_safety}) {
-        csv += fmt::format(",{}", field(value));
+        csv += fmt::format(",{}", csv_field(value));
       }
       csv += "\n";
     }

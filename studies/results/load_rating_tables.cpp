@@ -37,9 +37,6 @@ constexpr std::array<Definition, 4> definitions{{
      }},
 }};
 
-/// Empty where there is none.
-std::string field(double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); }
-
 }  // namespace
 
 std::string load_factors_csv(const StudyResults& results) {
@@ -47,8 +44,8 @@ std::string load_factors_csv(const StudyResults& results) {
   for (const LoadedResult& loaded : results.loaded) {
     for (const Definition& definition : definitions) {
       const auto k = definition.values(loaded);
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, definition.name, field(k[0]),
-                         field(k[1]), field(k[2]), field(k[3]));
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, definition.name, csv_field(k[0]),
+                         csv_field(k[1]), csv_field(k[2]), csv_field(k[3]));
     }
   }
   return csv;

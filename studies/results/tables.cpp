@@ -22,9 +22,6 @@ namespace flankwright::studies {
 
 namespace {
 
-/// Empty where there is no root stress.
-std::string root_field(const RootStressPeak& peak) { return std::isnan(peak.stress) ? std::string() : fmt::format("{}", peak.stress); }
-
 std::string cycle_csv(const StudyResults& results) {
   std::string csv =
       "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual,"
@@ -36,8 +33,9 @@ std::string cycle_csv(const StudyResults& results) {
       const LoadedPosition& p = loaded.cycle.positions[k];
       const double te = in_um(p.load.transmission_error);
       csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
-                         te / cos_base_helix, p.stiffness, p.load.kkt_residual, root_field(root_stress_peak(model.positions[k], p, Member::Pinion)),
-                         root_field(root_stress_peak(model.positions[k], p, Member::Wheel)));
+                         te / cos_base_helix, p.stiffness, p.load.kkt_residual,
+                         csv_field(root_stress_peak(model.positions[k], p, Member::Pinion).stress),
+                         csv_field(root_stress_peak(model.positions[k], p, Member::Wheel).stress));
     }
   }
   return csv;

@@ -117,8 +117,6 @@ constexpr Column excitation_columns[] = {
      [](const auto& p, const GearPair& pair) { return si_stiffness * p.tangent_stiffness * cos_beta_b(pair) * cos_beta_b(pair); }},
 };
 
-std::string csv_number(double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); }
-
 std::string positions_csv(const DynamicsRun& run, bool revolution) {
   std::string csv = "scene,torque_Nm";
   for (const Column& column : excitation_columns) csv += fmt::format(",{}", column.name);
@@ -126,7 +124,7 @@ std::string positions_csv(const DynamicsRun& run, bool revolution) {
   for (const MeshExcitation& of : run.cases) {
     for (const MeshExcitation::Position& position : revolution ? of.revolution : of.cycle) {
       csv += fmt::format("{},{}", csv_field(of.scene), in_Nm(of.torque));
-      for (const Column& column : excitation_columns) csv += fmt::format(",{}", csv_number(column.value(position, run.pair)));
+      for (const Column& column : excitation_columns) csv += fmt::format(",{}", csv_field(column.value(position, run.pair)));
       csv += "\n";
     }
   }
@@ -148,8 +146,8 @@ std::string harmonics_csv(const DynamicsRun& run) {
   for (const MeshExcitation& of : run.cases) {
     const auto [te, stiffness] = harmonics_of(of);
     for (std::size_t k = 0; k < te.size(); ++k) {
-      csv += fmt::format("{},{},{},{},{},{},{}\n", csv_field(of.scene), in_Nm(of.torque), k + 1, csv_number(te[k].amplitude),
-                         csv_number(in_deg(te[k].angle)), csv_number(stiffness[k].amplitude), csv_number(in_deg(stiffness[k].angle)));
+      csv += fmt::format("{},{},{},{},{},{},{}\n", csv_field(of.scene), in_Nm(of.torque), k + 1, csv_field(te[k].amplitude),
+                         csv_field(in_deg(te[k].angle)), csv_field(stiffness[k].amplitude), csv_field(in_deg(stiffness[k].angle)));
     }
   }
   return csv;
