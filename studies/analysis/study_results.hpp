@@ -1,5 +1,7 @@
 #pragma once
 
+#include <any>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,13 +12,8 @@
 #include "core/rating/edge_contact_start.hpp"
 #include "core/rating/iso_load_factors.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
-#include "optimize/design/design_optimiser.hpp"
-#include "optimize/design/pareto.hpp"
-#include "optimize/design/resolved_design.hpp"
-#include "optimize/design/two_level.hpp"
 #include "studies/analysis/fidelity_choice.hpp"
 #include "studies/analysis/effect_sizes.hpp"
-#include "core/compliance/comparison/gear_fit.hpp"
 #include "core/compliance/comparison/gear_deflections.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "core/compliance/model/gear_structures.hpp"
@@ -26,11 +23,6 @@
 #include "studies/analysis/unloaded_result.hpp"
 
 namespace flankwright::studies {
-
-struct FidelityHierarchy;
-struct Assessment;
-struct ScatterResult;
-struct SweepStatistics;
 
 /// Loaded contact of one scene at one torque, for one design.
 struct LoadedResult {
@@ -56,19 +48,10 @@ struct RunStep {
   double seconds{not_given};
 };
 
-/// Evaluations of a search at its two levels, and its own view of the optimum.
-struct SearchWork {
-  LevelWork search, fine;
-  double objective_seen_by_search{not_given};  ///< of the optimum on the coarse level, outside units
-  double objective_at_positions{not_given};  ///< of what is to be ground, at the fine level's positions alone: what it is compared by, outside units
-};
-
-/// One gear's fit, as the task "fit" makes it.
-struct GearFit {
-  Member member{Member::Pinion};
-  GearFitResult result;
-  bool several_teeth{true};   ///< form used
-  double seconds{not_given};  ///< wall time
+/// A design that the results show.
+struct ShownDesign {
+  std::string name;  ///< "before", "after"
+  PerGear<Modification> modification;
 };
 
 /// Everything a study produced, in internal units.
@@ -86,23 +69,28 @@ struct StudyResults {
   EffectSizes effect_sizes;
   LeftOutEffects left_out;  ///< of what an accuracy leaves to them
   std::vector<RunStep> steps;
-  std::optional<FidelityChoice> fidelity_choice;       ///< where the study asks for an accuracy
-  std::shared_ptr<const FidelityHierarchy> hierarchy;  ///< of the task "accuracy"
-  std::optional<DesignTask> design_task;
-  std::optional<DesignResult> design;        ///< its figures as they are shown: with extremes between the positions
-  std::optional<SearchWork> search_work;     ///< how the design was found
-  DesignErrors before_errors, after_errors;  ///< of the design's reports
-  std::optional<ParetoFront> front;
-  std::shared_ptr<const Assessment> assessment;  ///< of the design
-  std::shared_ptr<const ScatterResult> scatter;  ///< where the design was chosen over draws
-  std::vector<GearDeflections> deflections;      ///< of both gears, where the compliance is of single gears
-  std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
-  std::shared_ptr<const LifeModel> life_model;   ///< what life, loss and film were computed with; null: none
-  std::optional<StudyLife> life;                 ///< where the study asks for it
-  std::vector<GearFit> fits;                     ///< of the task "fit", one a gear
-  std::vector<std::string> notes;                ///< for the reader, one sentence each
-  std::vector<std::string> requirements;         ///< requirements that were not met (exit code 1), one line each
+  std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
+  std::vector<GearDeflections> deflections;       ///< of both gears, where the compliance is of single gears
+  std::shared_ptr<const LifeModel> life_model;    ///< what life, loss and film were computed with; null: none
+  std::optional<StudyLife> life;                  ///< where the study asks for it
+  std::vector<ShownDesign> designs;               ///< of a task that makes designs, the last one is to be ground; empty: the study's own
+  std::vector<std::string> notes;                 ///< for the reader, one sentence each
+  std::vector<std::string> requirements;          ///< requirements that were not met (exit code 1), one line each
   double seconds{not_given};
+
+  /// What the study's task found beside all this, of the type that the task has for it; null where there is none of that type.
+  template <class Found>
+  const Found* found() const {
+    const auto* kept = std::any_cast<std::shared_ptr<const Found>>(&found_);
+    return kept == nullptr ? nullptr : kept->get();
+  }
+  template <class Found>
+  void set_found(std::shared_ptr<const Found> found) {
+    found_ = std::move(found);
+  }
+
+ private:
+  std::any found_;
 };
 
 }  // namespace flankwright::studies

@@ -11,7 +11,6 @@
 #include "studies/results/expectations.hpp"
 #include "studies/results/report_tables.hpp"
 #include "studies/results/results_json.hpp"
-#include "studies/results/results_store.hpp"
 #include "studies/results/tables.hpp"
 
 namespace flankwright::studies {
@@ -37,7 +36,7 @@ void write_files(const FinishedRun& run, const std::filesystem::path& folder) {
                        [&] { write_whole(folder / "results.json", json_text(run.document)); },
                        [&] {
                          write_tables(csv_tables(run.results));
-                         if (run.results.design) write_results_store(folder / "results.sqlite", run.results);
+                         if (const auto write = run.results.study.task->write_files) write(run.results, folder);
                        },
                        [&] { write_tables(report_tables(run.document)); });
 }

@@ -155,7 +155,7 @@ std::vector<FlankDrawing> drawings_of(const StudyResults& results) {
   const std::optional<int> tolerance_class = study.drawing_class ? study.drawing_class : study.optimise.scatter.iso_1328_class;
   std::vector<FlankDrawing> drawings;
   if (!tolerance_class) return drawings;
-  const PerGear<Modification>& ground = results.design ? results.design->after.analysis.modification : study.modification;
+  const PerGear<Modification>& ground = results.designs.empty() ? study.modification : results.designs.back().modification;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     const Modification& modification = ground[member];
     drawings.push_back(make_drawing(results.pair, member, modification,

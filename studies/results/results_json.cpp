@@ -261,7 +261,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results, bool w
 }
 
 /// How one flank differs from the involute by generation, modification and grid, as a map; nothing where it does not.
-void add_topography(const GearPair& pair, Member member, const Modification& modification, const char* design, Json& maps) {
+void add_topography(const GearPair& pair, Member member, const Modification& modification, const std::string& design, Json& maps) {
   const Gear& gear = pair[member];
   const Flank flank = make_flank(pair, member, modification, {});
   Json z = Json::array(), radius = Json::array(), removal_um = Json::array();
@@ -293,16 +293,11 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
 
 Json modifications_json(const StudyResults& results) {
   Json maps = Json::array();
-  const auto add_both = [&](const PerGear<Modification>& modification, const char* design) {
+  const auto add_both = [&](const PerGear<Modification>& modification, const std::string& design) {
     for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(results.pair, m, modification[m], design, maps);
   };
-  if (results.design) {
-    for (const auto& [report, name] : {std::pair{&results.design->before, "before"}, std::pair{&results.design->after, "after"}}) {
-      add_both(report->analysis.modification, name);
-    }
-  } else {
-    add_both(analysed_modification(results.study, results.effects), "given");
-  }
+  for (const ShownDesign& design : results.designs) add_both(design.modification, design.name);
+  if (results.designs.empty()) add_both(analysed_modification(results.study, results.effects), "given");
   return maps;
 }
 

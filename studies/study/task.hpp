@@ -19,8 +19,8 @@ struct StudyReading;
 struct StudyResults;
 class StudyRun;
 
-/// A task of a study: one folder of studies/tasks and one line in registered_tasks(), with its data in Study and its results in StudyResults. What a
-/// member leaves empty, the task does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
+/// A task of a study: one folder of studies/tasks and one line in registered_tasks(), with its data in Study; what it finds beside the load cases it keeps by
+/// StudyResults::set_found(). What a member leaves empty, the task does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
 struct Task {
   const char* name{nullptr};     ///< as a study names it
   const char* meaning{nullptr};  ///< one sentence of Markdown that heads its keys in the key reference, with a link from studies/
@@ -40,10 +40,11 @@ struct Task {
   /// Work in the results folder after run(); an empty path: nothing is kept.
   void (*run_in_folder)(StudyResults&, const std::filesystem::path&, const ProgressReport&){nullptr};
 
-  void (*add_json)(const StudyResults&, nlohmann::ordered_json&){nullptr};  ///< its sections of results.json
-  std::vector<NamedText> (*tables)(const StudyResults&){nullptr};           ///< its CSV files beside those of load cases
-  std::string (*summary)(const StudyResults&){nullptr};                     ///< printed at the end of a run; never empty
-  std::string (*study_template)(){nullptr};                                 ///< printed by `flankwright new`; never empty
+  void (*write_files)(const StudyResults&, const std::filesystem::path& folder){nullptr};  ///< files that are no tables
+  void (*add_json)(const StudyResults&, nlohmann::ordered_json&){nullptr};                 ///< its sections of results.json
+  std::vector<NamedText> (*tables)(const StudyResults&){nullptr};                          ///< its CSV files beside those of load cases
+  std::string (*summary)(const StudyResults&){nullptr};                                    ///< printed at the end of a run; never empty
+  std::string (*study_template)(){nullptr};                                                ///< printed by `flankwright new`; never empty
 };
 
 /// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp.

@@ -3,6 +3,7 @@
 
 #include "optimize/design/design_problem.hpp"
 #include "studies/analysis/run_study.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/core/load/load_cases.hpp"
 
@@ -16,7 +17,7 @@ DesignTask main_task() {
   const studies::Study study = studies::read_study(
       FLANKWRIGHT_SOURCE_DIR "/studies/examples/helical-18-54.toml",
       {{"cycle.positions", "8"}, {"fidelity.quadrature.intervals", "4"}, {"optimise.max_evaluations", "1"}, {"optimise.comparison.rules", "off"}});
-  return *studies::run_study(study).design_task;
+  return studies::optimised(studies::run_study(study)).task;
 }
 
 /// Root mean square of the noise of equally spaced values of a smooth function, from their third differences, in which noise of one

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/results/expectations.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
@@ -83,8 +84,8 @@ TEST_CASE("The robust example beats its start in the worst scene, and scenes bec
   const Study study =
       read_study(FLANKWRIGHT_SOURCE_DIR "/studies/examples/helical-18-54.toml", {{"cycle.positions", "8"}, {"fidelity.quadrature.intervals", "4"}});
   const StudyResults results = run_study(study);
-  REQUIRE(results.design);
-  const DesignReport &before = results.design->before, &after = results.design->after;
+  REQUIRE(results.found<OptimiseResults>() != nullptr);
+  const DesignReport &before = optimised(results).design.before, &after = optimised(results).design.after;
   CHECK(after.objective < 0.9 * before.objective);
   const auto [least, most] = std::minmax_element(after.scene_measures.begin(), after.scene_measures.end());
   const auto [least_before, most_before] = std::minmax_element(before.scene_measures.begin(), before.scene_measures.end());
@@ -95,14 +96,15 @@ TEST_CASE("The robust example takes a quarter off the worst stress, the quiet on
           "[.soak][studies][examples][physics]") {
   const auto run = [](const char* name) { return run_study(read_study(std::string(FLANKWRIGHT_SOURCE_DIR "/studies/examples/") + name + ".toml")); };
   const StudyResults robust = run("robust-18-54");
-  CHECK(robust.design->status == SolverStatus::Converged);
-  CHECK(robust.design->runs.front().evaluations <= 150);
-  CHECK(robust.design->after.objective <= 0.75 * robust.design->before.objective);
-  CHECK(robust.design->optimality.residual <= 1e-6);
+  CHECK(optimised(robust).design.status == SolverStatus::Converged);
+  CHECK(optimised(robust).design.runs.front().evaluations <= 150);
+  CHECK(optimised(robust).design.after.objective <= 0.75 * optimised(robust).design.before.objective);
+  CHECK(optimised(robust).design.optimality.residual <= 1e-6);
   const StudyResults quiet = run("quiet-18-54");
-  CHECK(quiet.design->status == SolverStatus::Converged);
-  CHECK(quiet.design->after.objective <= 0.1 * quiet.design->before.scene_measures.front());  // the worst against the aligned pair
-  CHECK(quiet.design->optimality.residual <= 1e-4);
+  CHECK(optimised(quiet).design.status == SolverStatus::Converged);
+  CHECK(optimised(quiet).design.after.objective <=
+        0.1 * optimised(quiet).design.before.scene_measures.front());  // the worst against the aligned pair
+  CHECK(optimised(quiet).design.optimality.residual <= 1e-4);
 }
 
 TEST_CASE("The unloaded examples are at their published figures, at any number of positions", "[studies][examples][slow]") {

@@ -1,5 +1,7 @@
 #include "studies/tasks/accuracy/accuracy_task.hpp"
 
+#include <fmt/format.h>
+
 #include "studies/analysis/study_run.hpp"
 #include "studies/tasks/accuracy/accuracy_keys.hpp"
 #include "studies/tasks/accuracy/accuracy_template.hpp"
@@ -14,10 +16,21 @@ void run_accuracy(StudyRun& run) {
   run.analyse();
   StudyResults& results = run.results();
   LevelRunner runner(run.level_subject(), run.progress());
-  results.hierarchy = std::make_shared<const FidelityHierarchy>(run_hierarchy(runner, run.progress()));
-  results.steps.push_back({"accuracy_ladder", "all fidelity levels together", results.hierarchy->seconds});
-  if (!results.hierarchy->usable()) results.requirements.push_back("the finest fidelity level did not converge");
+  const Study& study = results.study;
+  const int intervals = study.fidelity.quadrature.intervals, positions = study.cycle.positions;
+  if (intervals > study.accuracy.intervals || positions > study.accuracy.positions) {
+    results.notes.push_back(
+        fmt::format("the finest level of the table (accuracy.finest: {} intervals, {} positions) is coarser than the results of this study "
+                    "({} intervals, {} positions)",
+                    study.accuracy.intervals, study.accuracy.positions, intervals, positions));
+  }
+  const auto hierarchy = std::make_shared<const FidelityHierarchy>(run_hierarchy(runner, run.progress()));
+  results.steps.push_back({"accuracy_ladder", "all fidelity levels together", hierarchy->seconds});
+  results.set_found(hierarchy);
+  if (!hierarchy->usable()) results.requirements.push_back("the finest fidelity level did not converge");
 }
+
+const FidelityHierarchy& hierarchy_of(const StudyResults& results) { return *results.found<FidelityHierarchy>(); }
 
 }  // namespace
 
@@ -27,9 +40,9 @@ const Task accuracy_task{.name = "accuracy",
                          .keys = accuracy_keys,
                          .check = check_accuracy,
                          .run = run_accuracy,
-                         .add_json = [](const StudyResults& results, Json& json) { json["accuracy"] = hierarchy_json(*results.hierarchy); },
-                         .tables = [](const StudyResults& results) { return hierarchy_tables(*results.hierarchy); },
-                         .summary = [](const StudyResults& results) { return hierarchy_summary(*results.hierarchy); },
+                         .add_json = [](const StudyResults& results, Json& json) { json["accuracy"] = hierarchy_json(hierarchy_of(results)); },
+                         .tables = [](const StudyResults& results) { return hierarchy_tables(hierarchy_of(results)); },
+                         .summary = [](const StudyResults& results) { return hierarchy_summary(hierarchy_of(results)); },
                          .study_template = accuracy_template};
 
 }  // namespace flankwright::studies

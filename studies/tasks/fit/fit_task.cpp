@@ -13,12 +13,15 @@ namespace {
 
 void run_fit(StudyRun& run) {
   StudyResults& results = run.results();
-  results.fits = fit_gears(results.study, results.pair, run.progress());
-  for (const GearFit& fit : results.fits) {
+  const auto fits = std::make_shared<const GearFits>(fit_gears(results.study, results.pair, run.progress()));
+  for (const GearFit& fit : *fits) {
     const std::string unmet = unmet_requirement(fit);
     if (!unmet.empty()) results.requirements.push_back(unmet);
   }
+  results.set_found(fits);
 }
+
+const GearFits& fits_of(const StudyResults& results) { return *results.found<GearFits>(); }
 
 }  // namespace
 
@@ -27,9 +30,9 @@ const Task fit_task{.name = "fit",
                     .single_gears = true,
                     .keys = fit_keys,
                     .run = run_fit,
-                    .add_json = [](const StudyResults& results, Json& json) { json["fit"] = list(results.fits, fit_json); },
-                    .tables = [](const StudyResults& results) { return fit_tables(results.fits); },
-                    .summary = [](const StudyResults& results) { return fit_summary(results.fits); },
+                    .add_json = [](const StudyResults& results, Json& json) { json["fit"] = list(fits_of(results), fit_json); },
+                    .tables = [](const StudyResults& results) { return fit_tables(fits_of(results)); },
+                    .summary = [](const StudyResults& results) { return fit_summary(fits_of(results)); },
                     .study_template = fit_template};
 
 }  // namespace flankwright::studies

@@ -1,4 +1,5 @@
 #include "studies/tasks/optimise/optimise_json.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -200,8 +201,9 @@ Json front_json(const ParetoFront& front, const DesignTask& task) {
 }  // namespace
 
 Json optimise_json(const StudyResults& results) {
-  const DesignResult& design = *results.design;
-  const DesignTask& task = *results.design_task;
+  const OptimiseResults& found = optimised(results);
+  const DesignResult& design = found.design;
+  const DesignTask& task = found.task;
   Json terms = Json::array(), scenes = Json::array();
   for (const ObjectiveTerm& term : task.objective) {
     terms.push_back({{"output", term.name}, {"weight", term.weight}, {"unit", term.unit()}});
@@ -213,8 +215,8 @@ Json optimise_json(const StudyResults& results) {
                       {"weight", task.scenes[s].weight},
                       {"before", design.before.scene_measures[s]},
                       {"after", design.after.scene_measures[s]},
-                      {"before_error", results.before_errors.scene_measures[s]},
-                      {"after_error", results.after_errors.scene_measures[s]}});
+                      {"before_error", found.before_errors.scene_measures[s]},
+                      {"after_error", found.after_errors.scene_measures[s]}});
   }
   Json json{{"objective_name", task.objective_name()},
             {"objective_unit", task.objective_unit()},
@@ -238,9 +240,9 @@ Json optimise_json(const StudyResults& results) {
             {"history", list(design.history, [](const SolverStep& step) -> Json {
                return {{"evaluation", step.evaluation}, {"objective", step.objective}, {"constraint_violation", step.constraint_violation}};
              })}};
-  add_errors(results.before_errors, task, json["before"]);
-  add_errors(results.after_errors, task, json["after"]);
-  if (results.search_work) json["assessment"] = assessment_json(*results.search_work);
+  add_errors(found.before_errors, task, json["before"]);
+  add_errors(found.after_errors, task, json["after"]);
+  json["assessment"] = assessment_json(found.search_work);
   if (design.exact) {
     json["exact"] = design_report_json(*design.exact, task);
     json["rounded"] = {{"variables", json["after"]["variables"]},
@@ -258,7 +260,7 @@ Json optimise_json(const StudyResults& results) {
     json["stages"] = std::move(stages);
   }
   add_starts(design, task, json);
-  if (results.front) json["pareto"] = front_json(*results.front, task);
+  if (found.front) json["pareto"] = front_json(*found.front, task);
   return json;
 }
 

@@ -5,7 +5,7 @@
 
 namespace flankwright::studies {
 
-/// The part `optimise` of results.json; needs design and design_task.
+/// The part `optimise` of results.json.
 Json optimise_json(const StudyResults& results);
 
 }  // namespace flankwright::studies

@@ -14,12 +14,13 @@
 #include "optimize/design/spare_limits.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/life_error.hpp"
-#include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/study_file/study_life.hpp"
 #include "studies/tasks/optimise/assessment.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/tasks/optimise/scatter.hpp"
+#include "studies/tasks/optimise/unmet_constraints.hpp"
 
 namespace flankwright::studies {
 
@@ -27,18 +28,18 @@ namespace {
 
 class OptimiseRun {
  public:
-  explicit OptimiseRun(StudyRun& run) : run_(run), results_(run.results()) {}
+  OptimiseRun(StudyRun& run, OptimiseResults& found) : run_(run), results_(run.results()), found_(found) {}
 
   void run() {
     const Study& study = results_.study;
     run_.set_phases();
-    results_.design_task = design_task();
+    found_.task = design_task();
     SolverOptions options = study.optimise.solver;
     const std::string unit = study.optimise.objective.size() == 1 ? study.optimise.objective.front().unit() : "";
     options.progress = [&](int analyses, double best) {
       run_.report("optimising", analyses, 0, std::isnan(best) ? "none within the limits so far" : fmt::format("best so far {:.5g} {}", best, unit));
     };
-    DesignProblem problem(*results_.design_task);
+    DesignProblem problem(found_.task);
     const DesignOptions choice{options, study.optimise.starts};
     announce_violations_of_start(problem);
     DesignOptions exact = choice;
@@ -52,14 +53,14 @@ class OptimiseRun {
     if (seeks_extremes(study))
       search_between_positions(
           problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, found);
-    results_.design = found.design;
-    results_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
+    found_.design = found.design;
+    found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
     if (!study.optimise.pareto_objectives.empty()) {
-      results_.front = trace_front(problem, study.optimise.pareto_objectives, study.optimise.pareto_points, choice);
+      found_.front = trace_front(problem, study.optimise.pareto_objectives, study.optimise.pareto_points, choice);
     }
-    const DesignResult& design = *results_.design;
+    const DesignResult& design = found_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
-    Assessment assessment = assess_optimum(study, problem, *results_.design_task, design, run_.progress());
+    Assessment assessment = assess_optimum(study, problem, found_.task, design, run_.progress());
     if (study.optimise.scatter.asked()) {
       assessment.is_of = AssessedDesign::WithoutScatter;
       choose_over_draws(problem);
@@ -68,27 +69,27 @@ class OptimiseRun {
     const std::vector<DesignScene> drawn = run_.loaded(draw_scenes(study, study.optimise.assessment.validation));
     if (!drawn.empty()) {
       run_.report("validating", 0, 1, fmt::format("{} draws", study.optimise.assessment.validation.samples));
-      assessment.validation = validate(study, *results_.design_task, design, drawn, best_of(assessment.rules));
+      assessment.validation = validate(study, found_.task, design, drawn, best_of(assessment.rules));
       assessment.seconds += assessment.validation->seconds;
     }
-    results_.assessment = std::make_shared<const Assessment>(std::move(assessment));
-    results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
+    found_.assessment = std::move(assessment);
+    results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", found_.assessment.seconds});
     const Stopwatch clock;
     const std::size_t first = add_both_designs(problem);
     results_.steps.push_back({"before_and_after", "both designs with their errors, wide ones beside a finer mesh", clock.seconds()});
     run_.rate();
     run_.rate_life();
     show_what_is_resolved(problem, first);
-    if (results_.assessment->relaxation) state_shown_excess();
-    add_unmet_by_design(problem, results_);
-    if (results_.scatter) add_unmet_over_draws();
+    if (found_.assessment.relaxation) state_shown_excess();
+    add_unmet_by_design(problem, results_.study.optimise, found_.design, results_.requirements);
+    if (found_.scatter) add_unmet_over_draws();
   }
 
  private:
   /// What is to be ground is the design over the draws; the listed scenes show it.
   void choose_over_draws(const DesignProblem& problem) {
     const auto load_cases = [&](const std::vector<Scene>& scenes) { return run_.loaded(scenes); };
-    ScatterResult scatter = run_scatter(results_.study, *results_.design_task, *results_.design, load_cases, run_.progress());
+    ScatterResult scatter = run_scatter(results_.study, found_.task, found_.design, load_cases, run_.progress());
     results_.steps.push_back({"scatter", "search over drawn gears and assemblies", scatter.design.seconds});
     const auto add = [this](const char* name, const char* why, double seconds) {
       if (seconds > 0.0) results_.steps.push_back({name, why, seconds});
@@ -96,14 +97,14 @@ class OptimiseRun {
     add("prediction", "the statistic from draws that the search has not seen", scatter.predicted.seconds);
     add("fresh_draws", "the designs on further draws", scatter.fresh_seconds);
     if (!scatter.classes.empty()) add("tolerance_classes", "the right design of each class", scatter.classes_seconds);
-    results_.design->after = report_design(problem, problem.analyse_design(scatter.design.modification));
-    results_.design->exact.reset();  // of the search over the listed scenes
-    results_.design->choices = scatter.design.choices;
-    results_.scatter = std::make_shared<const ScatterResult>(std::move(scatter));
+    found_.design.after = report_design(problem, problem.analyse_design(scatter.design.modification));
+    found_.design.exact.reset();  // of the search over the listed scenes
+    found_.design.choices = scatter.design.choices;
+    found_.scatter = std::move(scatter);
   }
 
   void add_unmet_over_draws() {
-    const ScatterDesign& design = results_.scatter->design;
+    const ScatterDesign& design = found_.scatter->design;
     if (design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled) return;
     results_.requirements.push_back(fmt::format("the search over the draws ended early ({}): {}", to_string(design.status), design.message));
   }
@@ -142,6 +143,7 @@ class OptimiseRun {
     task.structure = run_.structures().pair;
     if (study.fidelity.accuracy && study.fidelity.compliance == ComplianceModel::Fe) task.search_structure = structure_to_search_by();
     task.shafts = results_.shafts;
+    task.meshes = run_.mesh_store();
     task.modification = analysed_modification(study, results_.effects);
     task.variables = study.optimise.variables;
     task.objective = study.optimise.objective;
@@ -168,17 +170,15 @@ class OptimiseRun {
 
   /// The excess of the design as it is shown, with what lies between the positions, in place of that at the positions.
   void state_shown_excess() {
-    Assessment assessment = *results_.assessment;
-    const double excess = std::max(assessment.relaxation->excess, excess_of(results_.design->after));
-    assessment.relaxation->excess = excess;
-    results_.assessment = std::make_shared<const Assessment>(std::move(assessment));
-    results_.design->message = message_of_excess(excess);
+    double& excess = found_.assessment.relaxation->excess;
+    excess = std::max(excess, excess_of(found_.design.after));
+    found_.design.message = message_of_excess(excess);
   }
 
   /// By how much a design exceeds the constraint that it exceeds most [-, relative to the limit]; below 0: it keeps all.
   double excess_of(const DesignReport& report) const {
     double excess = -INFINITY;
-    const std::vector<OutputConstraint>& constraints = results_.design_task->constraints;
+    const std::vector<OutputConstraint>& constraints = found_.task.constraints;
     for (std::size_t c = 0; c < constraints.size(); ++c) excess = std::max(excess, constraints[c].excess(report.constraint_values[c]));
     return excess;
   }
@@ -195,7 +195,7 @@ class OptimiseRun {
   bool rises_between_positions(const DesignReport& at_positions, const DesignReport& shown, bool infeasible) const {
     constexpr double accuracy = AutomaticResolution{}.accuracy;
     if (infeasible) return 1.0 + excess_of(shown) > (1.0 + accuracy) * (1.0 + excess_of(at_positions));
-    const std::vector<OutputConstraint>& constraints = results_.design_task->constraints;
+    const std::vector<OutputConstraint>& constraints = found_.task.constraints;
     for (std::size_t c = 0; c < constraints.size(); ++c) {
       const double value = shown.constraint_values[c], rise = value - at_positions.constraint_values[c];
       if (constraints[c].excess(value) > DesignLog::tolerance && rise > accuracy * std::abs(constraints[c].limit())) return true;
@@ -253,8 +253,8 @@ class OptimiseRun {
 
   /// Continues from a design, or from optima beside it, at a resolution that has changed.
   void go_on_at_resolution(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found) {
-    results_.design_task = design_task();
-    problem = DesignProblem(*results_.design_task);
+    found_.task = design_task();
+    problem = DesignProblem(found_.task);
     go_on_from_best(problem, options, best_starts(problem, found.design, x), found);
     found.fine.resolution = problem.task().resolution;
   }
@@ -293,7 +293,7 @@ class OptimiseRun {
       DesignTask task;
       double excess;
     };
-    const std::vector<OutputConstraint>& asked = results_.design_task->constraints;
+    const std::vector<OutputConstraint>& asked = found_.task.constraints;
     const auto infeasible = [&] { return found.design.status == SolverStatus::Infeasible; };
     if (!seeks_extremes(results_.study) || asked.empty() || infeasible()) return;
     std::optional<Turn> best;
@@ -326,7 +326,7 @@ class OptimiseRun {
   /// @param shown         with what lies between the positions
   /// @param by_intervals  FinerLook::excess_changes
   std::vector<double> finer_excesses(const DesignReport& shown, const std::vector<double>& by_intervals) const {
-    const std::vector<OutputConstraint>& asked = results_.design_task->constraints;
+    const std::vector<OutputConstraint>& asked = found_.task.constraints;
     std::vector<double> excesses;
     for (std::size_t c = 0; c < asked.size(); ++c)
       excesses.push_back(asked[c].excess(shown.constraint_values[c]) + (by_intervals.empty() ? 0.0 : std::max(0.0, by_intervals[c])));
@@ -335,7 +335,7 @@ class OptimiseRun {
 
   /// A scene with the modifications of a design.
   DesignScene scene_of(const DesignAnalysis& analysis, int s) const {
-    DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
+    DesignScene scene = found_.task.scenes[static_cast<std::size_t>(s)];
     scene.condition.set_design(analysis.modification);
     return scene;
   }
@@ -352,8 +352,8 @@ class OptimiseRun {
   /// @returns the index of the first
   std::size_t add_both_designs(const DesignProblem& problem) {
     const std::size_t first = results_.loaded.size();
-    add_load_cases(problem, "before", results_.design->before.analysis);
-    add_load_cases(problem, "after", results_.design->after.analysis);
+    add_load_cases(problem, "before", found_.design.before.analysis);
+    add_load_cases(problem, "after", found_.design.after.analysis);
     run_.hold_against_finer(first);
     return first;
   }
@@ -369,9 +369,9 @@ class OptimiseRun {
       };
       return resolve_report(problem, cycles, report, life_error_in);
     };
-    results_.before_errors = resolve(first, results_.design->before);
-    results_.after_errors = resolve(first + static_cast<std::size_t>(problem.scenes()), results_.design->after);
-    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, results_.design->exact->analysis, false), *results_.design->exact);
+    found_.before_errors = resolve(first, found_.design.before);
+    found_.after_errors = resolve(first + static_cast<std::size_t>(problem.scenes()), found_.design.after);
+    if (found_.design.exact) resolve_report(problem, resolved_cycles(problem, found_.design.exact->analysis, false), *found_.design.exact);
   }
 
   void add_load_cases(const DesignProblem& problem, const std::string& name, const DesignAnalysis& analysis) {
@@ -382,10 +382,19 @@ class OptimiseRun {
 
   StudyRun& run_;
   StudyResults& results_;
+  OptimiseResults& found_;
 };
 
 }  // namespace
 
-void run_optimise(StudyRun& run) { OptimiseRun(run).run(); }
+void run_optimise(StudyRun& run) {
+  const auto found = std::make_shared<OptimiseResults>();
+  OptimiseRun(run, *found).run();
+  found->task.meshes = nullptr;  // they are the run's
+  if (found->assessment.judged) found->assessment.judged->meshes = nullptr;
+  const DesignResult& design = found->design;
+  run.results().designs = {{"before", design.before.analysis.modification}, {"after", design.after.analysis.modification}};
+  run.results().set_found<OptimiseResults>(found);
+}
 
 }  // namespace flankwright::studies

@@ -1,4 +1,5 @@
 #include "studies/tasks/optimise/optimise_tables.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,10 +24,11 @@ namespace {
 
 std::string scenes_csv(const StudyResults& results) {
   std::string csv = "scene,torque_Nm,weight,before,after\n";
-  for (std::size_t s = 0; s < results.design_task->scenes.size(); ++s) {
-    const DesignScene& scene = results.design_task->scenes[s];
-    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), in_Nm(scene.torque), scene.weight, results.design->before.scene_measures[s],
-                       results.design->after.scene_measures[s]);
+  const OptimiseResults& found = optimised(results);
+  for (std::size_t s = 0; s < found.task.scenes.size(); ++s) {
+    const DesignScene& scene = found.task.scenes[s];
+    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), in_Nm(scene.torque), scene.weight, found.design.before.scene_measures[s],
+                       found.design.after.scene_measures[s]);
   }
   return csv;
 }
@@ -125,8 +127,9 @@ std::string objective_in_words(const Objective& objective) {
 }  // namespace
 
 std::string optimise_summary(const StudyResults& results) {
-  const DesignTask& task = *results.design_task;
-  const DesignResult& design = *results.design;
+  const OptimiseResults& found = optimised(results);
+  const DesignTask& task = found.task;
+  const DesignResult& design = found.design;
   std::vector<std::string> names;
   for (const DesignVariable& v : task.variables) names.push_back(plain_name(v.path));
   const ListedScenes listed(task);
@@ -147,13 +150,13 @@ std::string optimise_summary(const StudyResults& results) {
   }
   out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective, design.after.objective,
                      change(design.before.objective, design.after.objective));
-  out += error_row(width, results.before_errors.objective, results.after_errors.objective);
+  out += error_row(width, found.before_errors.objective, found.after_errors.objective);
   for (std::size_t k = 0; k < task.later_objectives.size(); ++k) {
     const double before = design.before.later_objectives[k], after = design.after.later_objectives[k];
     out += fmt::format("then {} [{}]\n", objective_in_words(task.later_objectives[k]), task.later_objectives[k].unit());
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, before, after, change(before, after));
-    const bool has_error = k < results.before_errors.later_objectives.size() && k < results.after_errors.later_objectives.size();
-    if (has_error) out += error_row(width, results.before_errors.later_objectives[k], results.after_errors.later_objectives[k]);
+    const bool has_error = k < found.before_errors.later_objectives.size() && k < found.after_errors.later_objectives.size();
+    if (has_error) out += error_row(width, found.before_errors.later_objectives[k], found.after_errors.later_objectives[k]);
   }
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
@@ -163,9 +166,9 @@ std::string optimise_summary(const StudyResults& results) {
                                    behind_number(output.unit())),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
-    if (c < results.after_errors.constraint_values.size()) {
-      out += error_row(width, results.before_errors.constraint_values[c] * output.outside_factor(),
-                       results.after_errors.constraint_values[c] * output.outside_factor());
+    if (c < found.after_errors.constraint_values.size()) {
+      out += error_row(width, found.before_errors.constraint_values[c] * output.outside_factor(),
+                       found.after_errors.constraint_values[c] * output.outside_factor());
     }
   }
   out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
@@ -173,30 +176,27 @@ std::string optimise_summary(const StudyResults& results) {
   out += doubt_in_words(design);
   for (const std::string& sentence : grinding_choices_in_words(design, task, statistic_of_choices(results))) out += sentence + "\n";
   if (design.exact) out += loss_in_words(design, task) + excess_of_exact_in_words(design, task);
-  if (results.search_work) {
-    const SearchWork& work = *results.search_work;
-    const auto level = [&](const LevelWork& w) {
-      return fmt::format("{} cycles of {} intervals and {} positions, {:.2g} ms each", w.cycles, w.resolution.quadrature.intervals,
-                         w.resolution.phases.size(), 1e3 * w.seconds / static_cast<double>(w.cycles));
-    };
-    const bool two = work.search.resolution.quadrature.intervals != work.fine.resolution.quadrature.intervals;
-    out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
-  }
+  const SearchWork& work = found.search_work;
+  const auto level = [&](const LevelWork& w) {
+    return fmt::format("{} cycles of {} intervals and {} positions, {:.2g} ms each", w.cycles, w.resolution.quadrature.intervals,
+                       w.resolution.phases.size(), 1e3 * w.seconds / static_cast<double>(w.cycles));
+  };
+  const bool two = work.search.resolution.quadrature.intervals != work.fine.resolution.quadrature.intervals;
+  out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
   out += life_table(results, width) + shaft_table(results, width);
-  if (results.scatter) out += scatter_summary(*results.scatter, task, results.study);
+  if (found.scatter) out += scatter_summary(*found.scatter, task, results.study);
   // Other designs are judged at the positions: so is, beside them, the optimum.
-  const double compared = results.search_work ? results.search_work->objective_at_positions : design.after.objective;
-  return results.assessment ? out + assessment_summary(*results.assessment, task, compared) : out;
+  return out + assessment_summary(found.assessment, task, work.objective_at_positions);
 }
 
 std::vector<NamedText> optimise_tables(const StudyResults& results) {
-  std::vector<NamedText> tables{{"scenes.csv", scenes_csv(results)}, {"history.csv", history_csv(*results.design)}};
-  if (results.front) tables.push_back({"pareto.csv", pareto_csv(*results.front, *results.design_task)});
-  if (results.scatter) {
-    for (NamedText& table : scatter_tables(*results.scatter, *results.design_task)) tables.push_back(std::move(table));
+  const OptimiseResults& found = optimised(results);
+  std::vector<NamedText> tables{{"scenes.csv", scenes_csv(results)}, {"history.csv", history_csv(found.design)}};
+  if (found.front) tables.push_back({"pareto.csv", pareto_csv(*found.front, found.task)});
+  if (found.scatter) {
+    for (NamedText& table : scatter_tables(*found.scatter, found.task)) tables.push_back(std::move(table));
   }
-  if (!results.assessment) return tables;
-  for (NamedText& table : assessment_tables(*results.assessment)) tables.push_back(std::move(table));
+  for (NamedText& table : assessment_tables(found.assessment)) tables.push_back(std::move(table));
   return tables;
 }
 

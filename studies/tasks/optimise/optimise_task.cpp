@@ -6,6 +6,7 @@
 #include "studies/tasks/optimise/optimise_json.hpp"
 #include "studies/tasks/optimise/optimise_keys.hpp"
 #include "studies/tasks/optimise/optimise_reading.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/tasks/optimise/optimise_run.hpp"
 #include "studies/tasks/optimise/optimise_tables.hpp"
 #include "studies/tasks/optimise/optimise_template.hpp"
@@ -14,6 +15,7 @@
 #include "studies/tasks/optimise/assessment_reading.hpp"
 #include "studies/tasks/optimise/grinding_choices.hpp"
 #include "studies/tasks/optimise/grinding_limits.hpp"
+#include "studies/tasks/optimise/results_store.hpp"
 #include "studies/tasks/optimise/scatter_json.hpp"
 #include "studies/tasks/optimise/scatter_keys.hpp"
 #include "studies/tasks/optimise/scatter_reading.hpp"
@@ -55,14 +57,17 @@ std::vector<FlankCondition> optimise_conditions(const Study& study) {
 }
 
 void add_optimise_json(const StudyResults& results, Json& json) {
+  const OptimiseResults& found = optimised(results);
   json["optimise"] = optimise_json(results);
   const bool has_limits = results.study.optimise.largest_amount || results.study.optimise.steepest_relief;
-  if (has_limits) json["optimise"]["grinding_limits"] = grinding_limits_json(*results.design_task, results.design->after);
-  if (results.design_task->grindable.any())
-    json["optimise"]["grinding_choices"] = grinding_choices_json(*results.design, *results.design_task, statistic_of_choices(results));
-  if (results.scatter) json["optimise"]["scatter"] = scatter_json(*results.scatter, *results.design_task, results.study);
-  if (results.assessment) add_assessment(*results.assessment, *results.design_task, results.study.optimise.assessment, json["optimise"]);
+  if (has_limits) json["optimise"]["grinding_limits"] = grinding_limits_json(found.task, found.design.after);
+  if (found.task.grindable.any())
+    json["optimise"]["grinding_choices"] = grinding_choices_json(found.design, found.task, statistic_of_choices(results));
+  if (found.scatter) json["optimise"]["scatter"] = scatter_json(*found.scatter, found.task, results.study);
+  add_assessment(found.assessment, found.task, results.study.optimise.assessment, json["optimise"]);
 }
+
+void write_store(const StudyResults& results, const std::filesystem::path& folder) { write_results_store(folder / "results.sqlite", results); }
 
 }  // namespace
 
@@ -74,6 +79,7 @@ const Task optimise_task{.name = "optimise",
                          .conditions = optimise_conditions,
                          .asks_for_root_stress = minimises_root_stress,
                          .run = run_optimise,
+                         .write_files = write_store,
                          .add_json = add_optimise_json,
                          .tables = optimise_tables,
                          .summary = optimise_summary,

@@ -1,4 +1,5 @@
 #include "studies/tasks/optimise/scatter_json.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 
 #include <fmt/format.h>
 
@@ -65,7 +66,7 @@ std::string statistic_in_words(const Aggregation& statistic) {
 }
 
 std::string statistic_of_choices(const StudyResults& results) {
-  return results.scatter ? statistic_in_words(results.study.optimise.scatter.statistic) : "";
+  return optimised(results).scatter ? statistic_in_words(results.study.optimise.scatter.statistic) : "";
 }
 
 Json scatter_json(const ScatterResult& result, const DesignTask& task, const Study& study) {

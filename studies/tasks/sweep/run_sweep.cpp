@@ -106,7 +106,7 @@ void run_sweep(StudyResults& nominal, const std::filesystem::path& folder, const
     nominal.requirements.push_back("every sample of the sweep failed: " + statistics->failures.front().reason);
   }
   if (const std::string warning = index_warning(*statistics); !warning.empty()) nominal.notes.push_back(warning);
-  nominal.sweep = statistics;
+  nominal.set_found<SweepStatistics>(statistics);
   if (!folder.empty()) write_sweep_files(nominal, folder, store);
   nominal.seconds += clock.seconds();
   nominal.steps.push_back({"samples", "analyses, statistics and files of all samples", clock.seconds()});

@@ -65,7 +65,7 @@ Json map_json(const SweepStatistics& statistics, const std::vector<SweepParamete
 }  // namespace
 
 Json sweep_json(const StudyResults& results) {
-  const SweepStatistics& statistics = *results.sweep;
+  const SweepStatistics& statistics = *results.found<SweepStatistics>();
   const SweepTable& sweep = results.study.sweep;
   Json parameters = Json::array(), outputs = Json::object();
   for (std::size_t j = 0; j < sweep.parameters.size(); ++j) {

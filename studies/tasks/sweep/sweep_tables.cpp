@@ -18,8 +18,6 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Empty for a value that there is not.
-std::string field(double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); }
-
 /// "peak contact stress [MPa]".
 std::string labelled(const SweepOutput& output) {
   const std::string& unit = output.unit;
@@ -31,21 +29,24 @@ std::string statistics_csv(const SweepStatistics& statistics) {
   for (const double share : quantile_shares) csv += fmt::format(",{:.0f} %", 100.0 * share);
   csv += ",worst_sample\n";
   for (const OutputStatistics& of : statistics.outputs) {
-    csv += fmt::format("{},{},{},{},{},{},{}", of.output.name, of.output.unit, of.count, field(of.mean), field(of.deviation), field(of.smallest),
-                       field(of.largest));
-    for (const double quantile : of.quantiles) csv += fmt::format(",{}", field(quantile));
+    csv += fmt::format("{},{},{},{},{},{},{}", of.output.name, of.output.unit, of.count, csv_field(of.mean), csv_field(of.deviation),
+                       csv_field(of.smallest), csv_field(of.largest));
+    for (const double quantile : of.quantiles) csv += fmt::format(",{}", csv_field(quantile));
     csv += fmt::format(",{}\n", of.worst);
   }
   return csv;
 }
 
+/// Of a sweep that has run.
+const SweepStatistics& statistics_of(const StudyResults& results) { return *results.found<SweepStatistics>(); }
+
 std::string indices_csv(const StudyResults& results) {
   std::string csv = "output,parameter,first,first_error,total,total_error\n";
-  for (const OutputStatistics& of : results.sweep->outputs) {
+  for (const OutputStatistics& of : statistics_of(results).outputs) {
     for (std::size_t j = 0; j < of.indices.size(); ++j) {
       const SobolIndex& index = of.indices[j];
-      csv += fmt::format("{},{},{},{},{},{}\n", of.output.name, results.study.sweep.parameters[j].path, field(index.first), field(index.first_error),
-                         field(index.total), field(index.total_error));
+      csv += fmt::format("{},{},{},{},{},{}\n", of.output.name, results.study.sweep.parameters[j].path, csv_field(index.first),
+                         csv_field(index.first_error), csv_field(index.total), csv_field(index.total_error));
     }
   }
   return csv;
@@ -56,13 +57,13 @@ void write_samples(const StudyResults& results, const fs::path& file, SweepStore
   std::ofstream csv(temporary, std::ios::binary);
   csv << "sample,failure";
   for (const SweepParameter& p : results.study.sweep.parameters) csv << ',' << csv_field(fmt::format("{} [{}]", p.path, p.unit));
-  for (const OutputStatistics& of : results.sweep->outputs) csv << ',' << of.output.name;
+  for (const OutputStatistics& of : statistics_of(results).outputs) csv << ',' << of.output.name;
   csv << '\n';
-  const std::string no_outputs(results.sweep->outputs.size(), ',');
+  const std::string no_outputs(statistics_of(results).outputs.size(), ',');
   store.for_each(results.study.sweep.samples, [&](const StoredSample& sample) {
     csv << sample.id << ',' << csv_field(sample.result.failure);
-    for (const double value : sample.values) csv << ',' << field(value);
-    for (const double value : sample.result.outputs) csv << ',' << field(value);
+    for (const double value : sample.values) csv << ',' << csv_field(value);
+    for (const double value : sample.result.outputs) csv << ',' << csv_field(value);
     csv << (sample.result.failure.empty() ? "" : no_outputs) << '\n';
   });
   csv.close();
@@ -78,33 +79,36 @@ void write_samples(const StudyResults& results, const fs::path& file, SweepStore
 std::string worst_study_name(const SweepOutput& output) { return fmt::format("worst/{}.toml", output.name); }
 
 std::vector<NamedText> sweep_tables(const StudyResults& results) {
-  if (!results.sweep) return {};
-  std::vector<NamedText> tables{{"sweep_statistics.csv", statistics_csv(*results.sweep)}};
-  if (!results.sweep->outputs.front().indices.empty()) tables.push_back({"sweep_indices.csv", indices_csv(results)});
+  const SweepStatistics* found = results.found<SweepStatistics>();
+  if (found == nullptr) return {};
+  std::vector<NamedText> tables{{"sweep_statistics.csv", statistics_csv(*found)}};
+  if (!found->outputs.front().indices.empty()) tables.push_back({"sweep_indices.csv", indices_csv(results)});
   return tables;
 }
 
 std::string sweep_summary(const StudyResults& results) {
-  const SweepStatistics& s = *results.sweep;
+  const SweepStatistics& s = statistics_of(results);
   std::string out =
       fmt::format("{:<36}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>12}\n", "over the samples", "mean", "std", "1 %", "99 %", "worst", "of sample");
   for (const OutputStatistics& of : s.outputs) {
-    out += fmt::format("{:<36}  {:>11.5g}  {:>11.4g}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", labelled(of.output), of.mean, of.deviation,
+    const std::string deviation = std::isnan(of.deviation) ? "-" : fmt::format("{:.4g}", of.deviation);  // of one sample there is none
+    out += fmt::format("{:<36}  {:>11.5g}  {:>11}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", labelled(of.output), of.mean, deviation,
                        of.quantiles.front(), of.quantiles.back(), of.output.smaller_is_worse ? of.smallest : of.largest, of.worst);
   }
-  out += fmt::format("\n{} samples in {:.1f} s", s.samples, s.seconds);
+  out += fmt::format("\n{} {} in {:.1f} s", s.samples, s.samples == 1 ? "sample" : "samples", s.seconds);
   if (s.failed > 0) out += fmt::format(", {} failed: {}", s.failed, s.failures.front().reason);
   return out + "\n";
 }
 
 void write_sweep_files(const StudyResults& results, const fs::path& folder, SweepStore& store) {
+  const SweepStatistics& found = statistics_of(results);
   write_samples(results, folder / "samples.csv", store);
   make_folder(folder / "worst");
-  for (std::size_t k = 0; k < results.sweep->outputs.size(); ++k) {
-    const OutputStatistics& of = results.sweep->outputs[k];
+  for (std::size_t k = 0; k < found.outputs.size(); ++k) {
+    const OutputStatistics& of = found.outputs[k];
     if (of.worst < 0) continue;
-    const std::string title = fmt::format("{}: sample {}, the worst of {} {}", results.study.title, of.worst, results.sweep->samples, of.output.name);
-    write_whole(folder / worst_study_name(of.output), sample_study(results.study, title, results.sweep->worst[k].values));
+    const std::string title = fmt::format("{}: sample {}, the worst of {} {}", results.study.title, of.worst, found.samples, of.output.name);
+    write_whole(folder / worst_study_name(of.output), sample_study(results.study, title, found.worst[k].values));
   }
 }
 

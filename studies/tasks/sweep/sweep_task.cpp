@@ -8,6 +8,7 @@
 #include "studies/tasks/sweep/sweep_json.hpp"
 #include "studies/tasks/sweep/sweep_keys.hpp"
 #include "studies/tasks/sweep/sweep_reading.hpp"
+#include "studies/tasks/sweep/sweep_statistics.hpp"
 #include "studies/tasks/sweep/sweep_tables.hpp"
 #include "studies/tasks/sweep/sweep_template.hpp"
 
@@ -23,11 +24,12 @@ std::vector<FlankCondition> sweep_conditions(const Study& study) {
 }
 
 void add_sweep_json(const StudyResults& results, Json& json) {
-  if (results.sweep) json["sweep"] = sweep_json(results);
+  if (results.found<SweepStatistics>() != nullptr) json["sweep"] = sweep_json(results);
 }
 
 std::string sweep_run_summary(const StudyResults& results) {
-  return results.sweep ? "nominal sample\n" + analysis_table(results) + "\n" + sweep_summary(results) : analysis_table(results);
+  return results.found<SweepStatistics>() != nullptr ? "nominal sample\n" + analysis_table(results) + "\n" + sweep_summary(results)
+                                                     : analysis_table(results);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "core/compliance/fitted/correction_library.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
@@ -216,9 +217,9 @@ variables = { "pinion.modification.lead_slope" = [-30, 30] }
 constraints = { "peak_contact_stress" = { max = 5000 } }
 )",
                                           {{"fidelity.compliance", "\"thin_slice\""}});
-  REQUIRE(designed.design);
+  REQUIRE(designed.found<OptimiseResults>() != nullptr);
   CHECK(designed.structures.finite_elements->gears[1].from_cache);
-  CHECK(designed.design->after.objective < designed.design->before.objective);
+  CHECK(optimised(designed).design.after.objective < optimised(designed).design.before.objective);
 }
 
 TEST_CASE("Root stress cannot be minimised where it is switched off", "[studies][root-stress]") {

@@ -5,6 +5,5 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/gradients_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/quantities_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/report_tables_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/results_store_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/tables_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/unloaded_results_test.cpp)

@@ -1,3 +1,4 @@
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/results/tables.hpp"
 
 #include <algorithm>
@@ -132,8 +133,8 @@ TEST_CASE("An optimisation adds the tables of its scenes and its history", "[stu
   const auto tables = tables_of(results);
   REQUIRE(tables.count("scenes.csv") == 1);
   CHECK(tables.at("scenes.csv").size() == 1 + 3);
-  CHECK(tables.at("history.csv").size() == 1 + results.design->history.size());
-  CHECK(std::stod(tables.at("scenes.csv")[2][4]) == results.design->after.scene_measures[1]);
+  CHECK(tables.at("history.csv").size() == 1 + optimised(results).design.history.size());
+  CHECK(std::stod(tables.at("scenes.csv")[2][4]) == optimised(results).design.after.scene_measures[1]);
   const std::string summary = summary_table(results);
   for (const char* said : {"pinion lead crowning", "bent back", "over the scenes", "peak-to-peak TE <= 5 um", "nlopt:slsqp: converged", "known to"}) {
     CHECK_THAT(summary, Catch::Contains(said));

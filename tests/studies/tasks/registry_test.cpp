@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "studies/analysis/run_study.hpp"
@@ -14,10 +15,20 @@ namespace flankwright::studies {
 
 namespace {
 
+/// What the task below finds.
+struct Count {
+  int teeth{0};
+};
+
+void count(StudyRun& run) {
+  StudyResults& results = run.results();
+  results.set_found(std::make_shared<const Count>(Count{results.pair.pinion.data.teeth + results.pair.wheel.data.teeth}));
+  results.notes.push_back("counted");
+}
+
 const Task counting_task{.name = "counting",
-                         .run = [](StudyRun& run) { run.results().notes.push_back("counted"); },
-                         .add_json = [](const StudyResults& results,
-                                        Json& json) { json["teeth_of_both"] = results.pair.pinion.data.teeth + results.pair.wheel.data.teeth; },
+                         .run = count,
+                         .add_json = [](const StudyResults& results, Json& json) { json["teeth_of_both"] = results.found<Count>()->teeth; },
                          .tables = [](const StudyResults&) -> std::vector<NamedText> {
                            return {{"counting.csv", "teeth\n"}};
                          },
@@ -48,6 +59,7 @@ TEST_CASE("A new task is one struct and no other code", "[studies][task]") {
   const Json json = results_document(results);
   CHECK(json.at("task") == "counting");
   CHECK(json.at("teeth_of_both") == 60);
+  CHECK(run_study(parse_study(study_template("geometry"), "geometry.toml")).found<Count>() == nullptr);
 }
 
 TEST_CASE("The task geometry analyses nothing and prints the sizes of results.json", "[studies][task]") {

@@ -52,8 +52,8 @@ positions = 48
 FidelityHierarchy hierarchy_of(double helix_angle_deg, const std::string& modification = "", const std::string& fidelity = "") {
   const StudyResults results = run_study(parse_study(hierarchy_text(helix_angle_deg, modification, fidelity), "levels.toml"));
   REQUIRE(results.requirements.empty());
-  REQUIRE(results.hierarchy);
-  return *results.hierarchy;
+  REQUIRE(results.found<FidelityHierarchy>() != nullptr);
+  return *results.found<FidelityHierarchy>();
 }
 
 const HierarchyStep& step(const FidelityHierarchy& hierarchy, const std::string& name) {

@@ -29,7 +29,7 @@ StudyResults fitted_results() {
   task.teeth_apart = 1;
   task.radii = task.adjacent_radii = 4;
   task.fit.solver.max_iterations = 3;
-  results.fits.push_back({Member::Pinion, fit_gear(task), true, 1.0});
+  results.set_found(std::make_shared<const GearFits>(GearFits{{Member::Pinion, fit_gear(task), true, 1.0}}));
   return results;
 }
 
@@ -49,7 +49,8 @@ std::vector<std::vector<std::string>> lines_of(const std::string& csv) {
 
 TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studies][fit][results]") {
   static const StudyResults results = fitted_results();  // two seconds, once for all sections
-  const GearFitResult& fit = results.fits.front().result;
+  const GearFits& fits = *results.found<GearFits>();
+  const GearFitResult& fit = fits.front().result;
   REQUIRE(fit.fit.fit);
 
   SECTION("results.json") {
@@ -88,7 +89,7 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
   }
 
   SECTION("the table of coefficients is that of the fit, to the last digit") {
-    const std::vector<NamedText> tables = fit_tables(results.fits);
+    const std::vector<NamedText> tables = fit_tables(fits);
     REQUIRE(tables.size() == 3);
     CHECK(tables[0].name == "fit_pinion.csv");
     const FitTable table = fit.fit.fit->to_table();
@@ -110,7 +111,7 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
   }
 
   SECTION("summary and report") {
-    CHECK_THAT(fit_summary(results.fits),
+    CHECK_THAT(fit_summary(fits),
                Contains("pinion: iteration limit") && Contains("kernels") && Contains("thesis_separate") && Contains("over 5 teeth"));
     const std::string page = render_report(results_document(results));
     for (const char* part : {"<section id=\"deflections\">", "<section id=\"residuals\">", "function draw_deflections("}) {
@@ -145,12 +146,13 @@ TEST_CASE("Gears that could not be solved leave results without a fit", "[studie
   StudyResults results;
   results.study = parse_study(study_template("fit"), "fit.toml");
   results.pair = make_gear_pair(results.study.pair);
-  results.fits.push_back({Member::Wheel, {}, true, 1.0});
+  const GearFits fits{{Member::Wheel, {}, true, 1.0}};
+  results.set_found(std::make_shared<const GearFits>(fits));
   const json gear = json::parse(results_json(results))["fit"][0];
   CHECK(gear["status"] == "not run");
   CHECK(gear["finite_elements"]["solved"] == false);
   CHECK_FALSE(gear.contains("residuals"));
-  for (const NamedText& table : fit_tables(results.fits)) CHECK(table.name != "fit_wheel.csv");
+  for (const NamedText& table : fit_tables(fits)) CHECK(table.name != "fit_wheel.csv");
   CHECK_NOTHROW(render_report(results_document(results)));
 }
 

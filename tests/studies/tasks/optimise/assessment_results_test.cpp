@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/report/report.hpp"
 #include "studies/results/results_json.hpp"
@@ -61,7 +62,7 @@ TEST_CASE("The assessment in results.json is consistent", "[studies][assessment]
   const double best = optimise["comparison"]["best_rule"]["objective"];
   for (const json& rule : rules) {
     CHECK(rule["objective"].get<double>() >= best);
-    if (rule["objective"] == best) CHECK(rule["intervals"] == results.design_task->resolution.quadrature.intervals);
+    if (rule["objective"] == best) CHECK(rule["intervals"] == optimised(results).task.resolution.quadrature.intervals);
   }
   CHECK(optimise["comparison"]["basis"]["misalignment_um"] == Approx(12.0).epsilon(round_off));
 
@@ -117,7 +118,7 @@ TEST_CASE("The same study gives the same assessment", "[studies][assessment][det
 TEST_CASE("Where no rule of thumb keeps the constraints the summary says so", "[studies][assessment]") {
   const StudyResults results = run_study(
       parse_study(small::optimisation() + "\"pinion.modification.lead_crowning + wheel.modification.lead_crowning\" = { min = 25 }\n", "small.toml"));
-  CHECK(results.design->after.variables[2] >= 0.025 - 1e-6);  // in the order of their keys
+  CHECK(optimised(results).design.after.variables[2] >= 0.025 - 1e-6);  // in the order of their keys
   const std::string said = "None of 20 designs by rules of thumb keeps the constraints. The nearest, ";
   CHECK_THAT(summary_table(results), Catch::Contains(said));
   const json comparison = json::parse(results_json(results))["optimise"]["comparison"];
@@ -127,14 +128,14 @@ TEST_CASE("Where no rule of thumb keeps the constraints the summary says so", "[
 
 TEST_CASE("Where no design keeps the limits the excess that is said is that of the figure shown", "[studies][assessment]") {
   const StudyResults results = run_study(parse_study(small::optimisation() + "peak_contact_stress = { max = 100 }\n", "small.toml"));
-  REQUIRE(results.design->status == SolverStatus::Infeasible);
-  REQUIRE(results.assessment->relaxation);
-  const double shown = results.design->after.constraint_values[0] / 100.0 - 1.0;
-  CHECK(results.assessment->relaxation->excess >= shown);
+  REQUIRE(optimised(results).design.status == SolverStatus::Infeasible);
+  REQUIRE(optimised(results).assessment.relaxation);
+  const double shown = optimised(results).design.after.constraint_values[0] / 100.0 - 1.0;
+  CHECK(optimised(results).assessment.relaxation->excess >= shown);
   constexpr double between_positions = 0.02;  // model: what the positions of the search do not see
-  CHECK(results.assessment->relaxation->excess <= shown + between_positions);
-  CHECK(results.design->message == message_of_excess(results.assessment->relaxation->excess));
-  CHECK(std::isnan(results.design->optimality.residual));
+  CHECK(optimised(results).assessment.relaxation->excess <= shown + between_positions);
+  CHECK(optimised(results).design.message == message_of_excess(optimised(results).assessment.relaxation->excess));
+  CHECK(std::isnan(optimised(results).design.optimality.residual));
 }
 
 TEST_CASE("Damage over a load spectrum is listed by scene, and without a unit", "[studies][assessment][life]") {
@@ -148,7 +149,7 @@ objective = "contact_damage"
 tip_relief = { amount = 0, height = 1.5 }
 )",
                                                      "small.toml"));
-  REQUIRE(results.design_task->scenes.size() == 4);
+  REQUIRE(optimised(results).task.scenes.size() == 4);
   const json optimise = json::parse(results_json(results))["optimise"];
   REQUIRE(optimise["scenes"].size() == 2);
   for (const json& scene : optimise["scenes"]) CHECK(scene["torque_Nm"].is_null());
@@ -196,8 +197,8 @@ comparison.rules = "off"
   CHECK(more.phases.size() == static_cast<std::size_t>(more.study.cycle.positions));
   // Of 32 positions an edge that hardly touches lies between two, and the design shown is worse than what the search saw. Both are judged with peaks
   // sought between the positions.
-  CHECK(few.design->after.objective > 1.01 * few.search_work->objective_at_positions);
-  CHECK(more.design->after.objective < 1.005 * few.search_work->objective_at_positions);
+  CHECK(optimised(few).design.after.objective > 1.01 * optimised(few).search_work.objective_at_positions);
+  CHECK(optimised(more).design.after.objective < 1.005 * optimised(few).search_work.objective_at_positions);
 }
 
 TEST_CASE("Without rules there is nothing to compare with and no section for it", "[studies][assessment]") {
@@ -216,11 +217,11 @@ samples = 3
 "pinion.error.helix_slope" = { uniform = [-10, 10] }
 )",
                                                      "small.toml"));
-  REQUIRE(results.design_task->scenes.size() == 6);
-  CHECK(results.design_task->scenes[5].name == "drawn 3");
-  CHECK(results.design_task->scenes[5].condition.error.pinion.helix_slope != 0.0);
+  REQUIRE(optimised(results).task.scenes.size() == 6);
+  CHECK(optimised(results).task.scenes[5].name == "drawn 3");
+  CHECK(optimised(results).task.scenes[5].condition.error.pinion.helix_slope != 0.0);
   // The error misaligns: unmodified flanks see another stress than in the nominal scene.
-  CHECK(results.design->before.scene_measures[5] != results.design->before.scene_measures[0]);
+  CHECK(optimised(results).design.before.scene_measures[5] != optimised(results).design.before.scene_measures[0]);
 }
 
 }  // namespace

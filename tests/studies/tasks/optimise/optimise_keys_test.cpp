@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
@@ -181,10 +182,12 @@ TEST_CASE("The summary of a list has every objective before and after, and says 
 
 TEST_CASE("Where the exact objective is 0 or nearly so, both values are said and no per cent", "[studies][optimise-keys]") {
   StudyResults results = run_study(read_optimisation("", {{"optimise.step", "1"}}));
-  REQUIRE(results.design->exact);
+  OptimiseResults found = optimised(results);
+  REQUIRE(found.design.exact);
   const auto said = [&](double exact, double ground) {
-    results.design->exact->objective = exact;
-    results.design->after.objective = ground;
+    found.design.exact->objective = exact;
+    found.design.after.objective = ground;
+    results.set_found(std::make_shared<const OptimiseResults>(found));
     const json rounded = json::parse(results_json(results))["optimise"]["rounded"];
     CHECK(rounded["loss_percent"].is_null());
     CHECK(rounded["objective"] == ground);

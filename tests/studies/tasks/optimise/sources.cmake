@@ -5,6 +5,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/life_error_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/other_flank_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/twist_compensation_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/results_store_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/scatter_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/scatter_results_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/assessment_keys_test.cpp

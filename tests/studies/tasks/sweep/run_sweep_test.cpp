@@ -142,7 +142,7 @@ TEST_CASE("A sample that cannot be analysed fails with its reason and stops no o
   const Study study = sweep_study("samples = 40", "", {{"sweep.parameters.load.torque", "{ normal = [100, 200] }"}});
   StudyResults nominal = run_study(study);
   run_sweep(nominal, {}, {});
-  const SweepStatistics& sweep = *nominal.sweep;
+  const SweepStatistics& sweep = *nominal.found<SweepStatistics>();
   CHECK(sweep.samples == 40);
   CHECK(sweep.failed > 5);  // a third of the torques is below 0
   CHECK(sweep.failed < 25);
@@ -162,7 +162,7 @@ TEST_CASE("Mean peak stress of a sweep is between what its parameters' ends give
         .loaded.at(0)
         .summary.peak_contact_stress;
   };
-  for (const OutputStatistics& of : nominal.sweep->outputs) {
+  for (const OutputStatistics& of : nominal.found<SweepStatistics>()->outputs) {
     if (of.output.name != "peak_contact_stress_MPa") continue;
     CHECK(of.smallest == stress_at(800.0));
     CHECK(of.largest == stress_at(1200.0));

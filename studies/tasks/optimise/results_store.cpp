@@ -1,15 +1,15 @@
-#include "studies/base/version.hpp"
-#include "studies/results/results_store.hpp"
+#include "studies/tasks/optimise/results_store.hpp"
 
 #include <unistd.h>
 
-#include <cassert>
 #include <cmath>
 #include <string>
 #include <system_error>
 
 #include "core/base/error.hpp"
 #include "studies/base/database.hpp"
+#include "studies/base/version.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 
 namespace flankwright::studies {
 
@@ -27,8 +27,8 @@ CREATE TABLE constraints (name TEXT, unit TEXT, minimum REAL, maximum REAL, befo
 )";
 
 void add_run(Database& database, const StudyResults& results) {
-  const DesignResult& design = *results.design;
-  const DesignTask& task = *results.design_task;
+  const DesignResult& design = optimised(results).design;
+  const DesignTask& task = optimised(results).task;
   Statement insert(database, "INSERT INTO run VALUES (?, ?)");
   insert.row("title", results.study.title);
   insert.row("task", "optimise");
@@ -52,8 +52,8 @@ void add_run(Database& database, const StudyResults& results) {
 }
 
 void add_tables(Database& database, const StudyResults& results) {
-  const DesignResult& design = *results.design;
-  const DesignTask& task = *results.design_task;
+  const DesignResult& design = optimised(results).design;
+  const DesignTask& task = optimised(results).task;
   Statement variables(database, "INSERT INTO variables VALUES (?, ?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
@@ -112,7 +112,6 @@ class TemporaryFile {
 }  // namespace
 
 void write_results_store(const fs::path& file, const StudyResults& results) {
-  assert(results.design && results.design_task);
   TemporaryFile temporary(file);
   {
     Database database(temporary.path(), file);

@@ -1,4 +1,5 @@
-#include "studies/results/results_store.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
+#include "studies/tasks/optimise/results_store.hpp"
 
 #include <sqlite3.h>
 
@@ -41,7 +42,7 @@ double number(const std::filesystem::path& file, const std::string& sql) {
   return std::stod(rows.front().front());
 }
 
-const StudyResults& optimised() {
+const StudyResults& small_optimisation() {
   static const StudyResults results = run_study(parse_study(small::optimisation(), "small.toml"));
   return results;
 }
@@ -51,8 +52,8 @@ const StudyResults& optimised() {
 TEST_CASE("The store of an optimisation agrees with the results", "[studies][results][store]") {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "results.sqlite";
-  const StudyResults& results = optimised();
-  const DesignResult& design = *results.design;
+  const StudyResults& results = small_optimisation();
+  const DesignResult& design = optimised(results).design;
   write_results_store(file, results);
 
   CHECK(query(file, "PRAGMA integrity_check") == std::vector<Row>{{"ok"}});
@@ -67,8 +68,8 @@ TEST_CASE("The store of an optimisation agrees with the results", "[studies][res
   CHECK(query(file, "SELECT unit, lower, upper FROM variables WHERE path = 'pinion.modification.lead_slope'") ==
         std::vector<Row>{{"um", "-20.0", "20.0"}});
   CHECK(query(file, "SELECT unit, lower, upper FROM variables WHERE path LIKE '%length'") == std::vector<Row>{{"mm", "5.0", "30.0"}});
-  for (const DesignVariable& v : results.design_task->variables) {
-    const auto i = static_cast<std::size_t>(&v - results.design_task->variables.data());
+  for (const DesignVariable& v : optimised(results).task.variables) {
+    const auto i = static_cast<std::size_t>(&v - optimised(results).task.variables.data());
     const std::string where = " FROM variables WHERE path = '" + v.path + "'";
     const double factor = std::string(v.unit()) == "um" ? 1e3 : 1.0;
     CHECK(number(file, "SELECT before" + where) == Approx(factor * design.before.variables[i]).epsilon(round_off));
@@ -105,9 +106,11 @@ effective_contact_ratio = { min = 1.5 }
 TEST_CASE("Texts with quotes and numbers that were not computed survive the store", "[studies][results][store]") {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "results.sqlite";
-  StudyResults results = optimised();
+  StudyResults results = small_optimisation();
   results.study.title = "Robert'); DROP TABLE run; -- \"ß\"";
-  results.design->history.front().objective = not_given;
+  OptimiseResults found = optimised(results);
+  found.design.history.front().objective = not_given;
+  results.set_found(std::make_shared<const OptimiseResults>(found));
   write_results_store(file, results);
   CHECK(query(file, "SELECT value FROM run WHERE key = 'title'") == std::vector<Row>{{results.study.title}});
   CHECK(query(file, "SELECT objective FROM history WHERE evaluation = 1") == std::vector<Row>{{"NULL"}});
@@ -116,13 +119,13 @@ TEST_CASE("Texts with quotes and numbers that were not computed survive the stor
 TEST_CASE("A store replaces the one before it whole and leaves nothing beside it", "[studies][results][store]") {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "results.sqlite";
-  write_results_store(file, optimised());
-  write_results_store(file, optimised());
+  write_results_store(file, small_optimisation());
+  write_results_store(file, small_optimisation());
   CHECK(number(file, "SELECT count(*) FROM scenes") == 3.0);
   CHECK(folder.names() == std::vector<std::string>{"results.sqlite"});
   {
     const SmallFileLimit limit(3000);
-    CHECK_THROWS_AS(write_results_store(file, optimised()), InvalidInput);
+    CHECK_THROWS_AS(write_results_store(file, small_optimisation()), InvalidInput);
   }
   CHECK(number(file, "SELECT count(*) FROM scenes") == 3.0);
   CHECK(folder.names() == std::vector<std::string>{"results.sqlite"});
@@ -135,7 +138,7 @@ TEST_CASE("A store that cannot be written is refused with the folder's name", "[
   for (const char* place : {"no-such-folder/results.sqlite", "file/results.sqlite", "taken"}) {
     CAPTURE(place);
     try {
-      write_results_store(folder.path() / place, optimised());
+      write_results_store(folder.path() / place, small_optimisation());
       FAIL("was written");
     } catch (const InvalidInput& problem) {
       CHECK(problem.field() == "output folder");

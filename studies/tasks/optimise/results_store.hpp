@@ -11,7 +11,7 @@ namespace flankwright::studies {
 /// Units are those of the report (um, mm, MPa, N/mm, N·m, s) and stand beside each value; a number that was not
 /// computed is NULL. The file appears whole or not at all: one transaction into a temporary file in the same folder,
 /// which is then renamed.
-/// @param results  of a study with an optimisation: results.design and results.design_task are set
+/// @param results  of an optimisation
 /// @throws InvalidInput ("output folder") with SQLite's or the system's reason where it cannot be written
 void write_results_store(const std::filesystem::path& file, const StudyResults& results);
 

@@ -1,0 +1,38 @@
+#include "studies/tasks/optimise/unmet_constraints.hpp"
+
+#include <fmt/format.h>
+
+#include "optimize/design/design_log.hpp"
+#include "studies/base/plain_names.hpp"
+
+namespace flankwright::studies {
+
+std::vector<std::string> violated_constraints(const DesignProblem& problem, const OptimiseTable& asked, const DesignReport& design) {
+  std::vector<std::string> unmet;
+  for (std::size_t c = 0; c < asked.constraints.size(); ++c) {
+    const OutputConstraint& constraint = asked.constraints[c];
+    const double value = design.constraint_values[c];
+    if (!(constraint.excess(value) > DesignLog::tolerance)) continue;
+    const double factor = constraint.output.outside_factor();
+    unmet.push_back(fmt::format("the constraint {} {} {:.4g} is violated: {:.4g}{}", constraint.output.name, constraint.is_least() ? ">=" : "<=",
+                                constraint.limit() * factor, value * factor, behind_number(constraint.output.unit())));
+  }
+  for (std::size_t c = 0; c < asked.modification_constraints.size(); ++c) {
+    const ModificationConstraint& constraint = asked.modification_constraints[c];
+    const double value = design.modification_values[c];
+    const double slack = DesignLog::tolerance * problem.modification_scale(constraint);
+    if (value <= constraint.maximum + slack && value >= constraint.minimum - slack) continue;
+    unmet.push_back(
+        fmt::format("the constraint on {} is violated: {:.4g} {}", constraint.name, value * constraint.outside_factor(), constraint.unit()));
+  }
+  return unmet;
+}
+
+void add_unmet_by_design(const DesignProblem& problem, const OptimiseTable& asked, const DesignResult& design, std::vector<std::string>& unmet) {
+  if (design.status != SolverStatus::Converged && design.status != SolverStatus::Stalled) {
+    unmet.push_back(fmt::format("the optimisation ended early ({}): {}", to_string(design.status), design.message));
+  }
+  for (std::string& constraint : violated_constraints(problem, asked, design.after)) unmet.push_back(std::move(constraint));
+}
+
+}  // namespace flankwright::studies
