@@ -13,7 +13,7 @@ bool same(const MeshKey& a, const MeshKey& b) {
          a.shafts == b.shafts;
 }
 
-/// Of the influence values, which are most of a mesh.
+/// The size of the influence values, which make up most of a mesh.
 std::size_t bytes_of(const MeshModel& mesh) {
   Eigen::Index values = 0;
   for (const MeshPosition& position : mesh.positions) values += position.influence.size();

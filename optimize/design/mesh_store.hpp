@@ -10,7 +10,7 @@
 
 namespace flankwright {
 
-/// What one mesh of a pair differs in from another.
+/// What distinguishes one mesh of a pair from another.
 struct MeshKey {
   MeshPlacement placement;
   MeshResolution resolution;
@@ -27,9 +27,9 @@ class MeshStore {
   /// Influence values that all kept meshes may have [bytes].
   static constexpr std::size_t most_bytes = std::size_t{512} << 20U;
 
-  /// @param make  of what is not known
+  /// @param make  makes a mesh that the store does not have
   std::shared_ptr<const MeshModel> mesh(const MeshKey& key, const std::function<MeshModel()>& make);
-  /// Null where it is not known.
+  /// Null where the store does not have it.
   std::shared_ptr<const MeshModel> find(const MeshKey& key);
 
  private:

@@ -29,6 +29,6 @@ std::string csv_field(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string csv_field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : std::string(); }
+std::string csv_field(double number) { return std::isnan(number) ? std::string() : fmt::format("{}", number); }
 
 }  // namespace flankwright::studies

@@ -7,7 +7,7 @@ namespace flankwright::studies {
 /// CSV field of a name: quoted where it holds a comma, a quote or a line break. A spreadsheet takes a cell that begins with = + - or @
 /// for a formula: an apostrophe before it, the spreadsheet's own mark of a text, keeps it a name. Numbers stay numbers.
 std::string csv_field(const std::string& text);
-/// Of a number: all its digits; empty where it was not computed.
+/// CSV field of a number with all its digits; empty where it was not computed.
 std::string csv_field(double number);
 
 }  // namespace flankwright::studies

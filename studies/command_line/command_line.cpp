@@ -171,7 +171,7 @@ void CommandLine::add_test() {
           [this] { return test_command(paths_, accept_); });
   command->add_option("paths", paths_, "study files or folders of them")->required();
   command->add_option("--threads", threads_, "threads to use")->check(CLI::Range(1, 1024));
-  command->add_flag("--accept", accept_, "write today's values into a copy of each study_, FILE.accepted");
+  command->add_flag("--accept", accept_, "write today's values into a copy of each study, FILE.accepted");
 }
 
 void CommandLine::add_library() {
@@ -229,7 +229,7 @@ void CommandLine::add_docs() {
                           "  flankwright docs tutorial --open                            in the browser\n"
                           "  w3m \"$(flankwright docs keys)\"                             in the terminal",
                           [this] { return docs_command(page_, open_page_); });
-  command->add_option("page", page_, "name of a page_, as listed without one");
+  command->add_option("page", page_, "name of a page, as listed without one");
   command->add_flag("--open", open_page_, "open it in the browser (xdg-open)");
 }
 

@@ -11,7 +11,7 @@
 
 namespace flankwright::studies {
 
-/// Exit codes beside 0 and 1, a requirement that is not met.
+/// Exit codes for bad input and for faults of the program. The others are 0 and 1, where a requirement is not met.
 inline constexpr int bad_input = 2, internal_error = 3;
 
 /// The commands of the program with their options. A new one is a function here, called by the constructor.

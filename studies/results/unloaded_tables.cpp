@@ -12,6 +12,9 @@ namespace flankwright::studies {
 
 namespace {
 
+/// Empty as well where a number is infinite, such as the ellipse of contact along a line.
+std::string cell(double value) { return std::isfinite(value) ? csv_field(value) : std::string(); }
+
 double largest_jump(const UnloadedMesh& mesh) {
   double largest = 0.0;
   for (const Transfer& transfer : mesh.transfers) largest = std::max(largest, std::abs(transfer.slope_jump()));
@@ -39,8 +42,7 @@ std::string unloaded_csv(const StudyResults& results) {
         const ContactMark& mark = unloaded.marks[i][j];
         csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(unloaded.scene), curve.tooth, in_deg(c.phi1), in_deg(c.phi2),
                            in_arcsec(c.transmission_error), to_string(c.kind), c.pinion_radius, c.pinion_z, c.wheel_radius, c.wheel_z,
-                           csv_field(in_arcsec_per_deg(c.slope)), mark.carries ? 1 : 0, csv_field(mark.ellipse.semi_major),
-                           csv_field(mark.ellipse.semi_minor));
+                           cell(in_arcsec_per_deg(c.slope)), mark.carries ? 1 : 0, cell(mark.ellipse.semi_major), cell(mark.ellipse.semi_minor));
       }
     }
   }
@@ -54,8 +56,8 @@ std::string transfers_csv(const StudyResults& results) {
   for (const UnloadedResult& unloaded : results.unloaded) {
     for (const Transfer& t : unloaded.mesh.transfers) {
       csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(unloaded.scene), in_deg(t.phi1), in_arcsec(t.transmission_error), t.from_tooth,
-                         t.to_tooth, csv_field(in_arcsec_per_deg(t.slope_before)), csv_field(in_arcsec_per_deg(t.slope_after)),
-                         csv_field(in_arcsec_per_deg(t.slope_jump())));
+                         t.to_tooth, cell(in_arcsec_per_deg(t.slope_before)), cell(in_arcsec_per_deg(t.slope_after)),
+                         cell(in_arcsec_per_deg(t.slope_jump())));
     }
   }
   return csv;
@@ -68,7 +70,7 @@ std::string bearing_pattern_csv(const StudyResults& results) {
       for (Eigen::Index row = 0; row < pattern->separation.rows(); ++row) {
         for (Eigen::Index column = 0; column < pattern->separation.cols(); ++column) {
           csv += fmt::format("{},{},{},{},{}\n", csv_field(unloaded.scene), gear, pattern->radius[static_cast<std::size_t>(row)],
-                             pattern->z[static_cast<std::size_t>(column)], csv_field(in_um(pattern->separation(row, column))));
+                             pattern->z[static_cast<std::size_t>(column)], cell(in_um(pattern->separation(row, column))));
         }
       }
     }

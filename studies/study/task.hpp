@@ -40,7 +40,7 @@ struct Task {
   /// Work in the results folder after run(); an empty path: nothing is kept.
   void (*run_in_folder)(StudyResults&, const std::filesystem::path&, const ProgressReport&){nullptr};
 
-  void (*write_files)(const StudyResults&, const std::filesystem::path& folder){nullptr};  ///< files that are no tables
+  void (*write_files)(const StudyResults&, const std::filesystem::path& folder){nullptr};  ///< files other than tables
   void (*add_json)(const StudyResults&, nlohmann::ordered_json&){nullptr};                 ///< its sections of results.json
   std::vector<NamedText> (*tables)(const StudyResults&){nullptr};                          ///< its CSV files beside those of load cases
   std::string (*summary)(const StudyResults&){nullptr};                                    ///< printed at the end of a run; never empty

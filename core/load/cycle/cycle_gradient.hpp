@@ -23,7 +23,7 @@ Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCy
 /// Derivatives of a CycleSummary with respect to the parameters of analyse_cycle(), 1 x m each, exact while points keep
 /// their contact and peaks their location. A peak's derivative is that of the point and position where it is (the first
 /// of equals); a maximum over fixed positions has it on one side at least.
-/// There is none of figures that the summary does not have.
+/// A figure that the summary does not have has no derivatives.
 struct CycleGradient : CycleValues<Eigen::RowVectorXd, Eigen::MatrixXd> {
   /// Of RootStressPeak; empty where the model has no root stress.
   struct Root {

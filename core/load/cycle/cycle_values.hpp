@@ -7,7 +7,7 @@
 
 namespace flankwright {
 
-/// One of each main figure of a loaded mesh cycle: its value, its error, or its derivatives. Whatever is done with all of them goes over `single`.
+/// One of each main figure of a loaded mesh cycle: its value, its error, or its derivatives. What is done with all of them goes over single().
 /// @tparam Single    of a figure that is one number
 /// @tparam PerOrder  of one with a number for each order of the mesh frequency, 1 .. 10
 template <class Single, class PerOrder>

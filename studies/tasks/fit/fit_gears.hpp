@@ -16,7 +16,7 @@ struct GearFit {
   bool several_teeth{true};   ///< form used
   double seconds{not_given};  ///< wall time
 };
-/// What the task finds, one a gear.
+/// What the task finds: a fit for each gear.
 using GearFits = std::vector<GearFit>;
 
 /// Data of one gear of a study to be solved and fitted.

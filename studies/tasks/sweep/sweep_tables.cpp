@@ -17,7 +17,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Empty for a value that there is not.
 /// "peak contact stress [MPa]".
 std::string labelled(const SweepOutput& output) {
   const std::string& unit = output.unit;
