@@ -16,6 +16,9 @@ namespace flankwright {
 
 namespace {
 
+/// Whether an effect's size is found by leaving it out of a mesh.
+bool is_sized(const EffectDecision& decision) { return decision.on && changes_mesh(decision.name); }
+
 /// A load case with some effects on: the mesh and the flanks that they leave.
 struct Case {
   std::shared_ptr<const MeshModel> model;
@@ -25,8 +28,8 @@ struct Case {
 /// Builds the cases of one scene; data of the gears alone are computed once.
 class Cases {
  public:
-  Cases(const EffectScene& scene, EffectMeshes& meshes)
-      : scene_(scene), meshes_(meshes), slices_(ThinSlice(scene.pair, scene.material.pinion, scene.material.wheel)) {
+  Cases(const EffectScene& scene, EffectMeshes& meshes) : scene_(scene), meshes_(meshes) {
+    if (scene.structure == nullptr) slices_.emplace(ThinSlice(scene.pair, scene.material.pinion, scene.material.wheel));
     gears_.pair = scene.pair;
     gears_.material = scene.material;
     gears_.contact_modulus = contact_modulus(scene.material.pinion, scene.material.wheel);
@@ -36,16 +39,17 @@ class Cases {
   Case with(const EffectDecisions& decisions, const std::string& left_out = {}) const {
     FlankCondition condition = apply_effects(decisions, scene_.condition);
     const MeshPlacement placement = placement_of(gap_model(decisions), condition, scene_.shafts, scene_.pinion_torque);
-    const PairCompliance& structure = scene_.structure != nullptr ? *scene_.structure : slices_;
+    const PairCompliance& structure = slices_ ? *slices_ : *scene_.structure;
     const auto make = [&] {
       return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts);
     };
     return {meshes_.mesh(left_out, placement, make), std::move(condition)};
   }
 
-  /// Whether there is a structure for these effects: that on rigid bodies needs its own run.
-  bool knows(const EffectDecisions& decisions) const {
-    return scene_.structure == nullptr || scene_.structure->knows_rigid_bodies() || is_on(decisions, "gear_body_compliance");
+  /// Whether something yields under these effects, and there is a structure for them: that on rigid bodies needs its own run.
+  bool yield_by(const EffectDecisions& decisions) const {
+    const bool has_structure = slices_ || scene_.structure->knows_rigid_bodies() || is_on(decisions, "gear_body_compliance");
+    return has_structure && mesh_effects(decisions).make_compliant();
   }
 
   CycleOutputs outputs(const EffectDecisions& decisions, const std::string& left_out = {}) const {
@@ -56,8 +60,8 @@ class Cases {
  private:
   const EffectScene& scene_;
   EffectMeshes& meshes_;
-  ThinSlicePair slices_;
-  MeshModel gears_;  ///< without positions
+  std::optional<ThinSlicePair> slices_;  ///< where the scene has no structure
+  MeshModel gears_;                      ///< without positions
 };
 
 /// Outputs as positions come in.
@@ -146,7 +150,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   const Stopwatch clock;
   EstimatedSize result{{name, {}, not_given}};
   const EffectDecisions rest = without(decisions, name, "left out");
-  if (!mesh_effects(rest).make_compliant() || !cases.knows(rest)) return result;
+  if (!cases.yield_by(rest)) return result;
   const Case other = cases.with(rest, name);
   const ConditionGap gaps(other.model->pair, other.model->placement.gap, other.condition);
   const PairReliefStarts starts = relief_starts(other.model->pair, other.condition);
@@ -216,6 +220,16 @@ std::shared_ptr<const MeshModel> EffectMeshes::mesh(const std::string& left_out,
   return entry->mesh;
 }
 
+void make_effect_meshes(const EffectScene& scene, const EffectDecisions& decisions, EffectMeshes& meshes, const ForEachIndex& for_each) {
+  const Cases cases(scene, meshes);
+  std::vector<std::string> names{{}};
+  for (const EffectDecision& decision : decisions) {
+    if (is_sized(decision) && cases.yield_by(without(decisions, decision.name, "left out"))) names.push_back(decision.name);
+  }
+  run_for_each(for_each, names.size(),
+               [&](std::size_t i) { cases.with(names[i].empty() ? decisions : without(decisions, names[i], "left out"), names[i]); });
+}
+
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options) {
   EffectMeshes meshes;
   return estimate_effect_sizes(scene, decisions, options, meshes);
@@ -229,7 +243,7 @@ std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const
   const CycleOutputs with = cycle_outputs(cycle);
   std::vector<EstimatedSize> sizes;
   for (const EffectDecision& decision : decisions) {
-    if (!decision.on || !changes_mesh(decision.name)) continue;
+    if (!is_sized(decision)) continue;
     if (options.only && std::ranges::find(*options.only, decision.name) == options.only->end()) continue;
     if (!cycle.usable()) {
       sizes.push_back({{decision.name, {}, not_given}});

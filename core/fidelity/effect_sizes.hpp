@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/for_each_index.hpp"
 #include "core/effects/effect_size.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 
@@ -77,6 +78,9 @@ struct SizeOptions {
 /// @param meshes  shared between load cases
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options,
                                                  EffectMeshes& meshes);
+
+/// Makes beforehand the meshes that estimate_effect_sizes() will ask for, side by side: load cases that are estimated at one time wait for each other's.
+void make_effect_meshes(const EffectScene& scene, const EffectDecisions& decisions, EffectMeshes& meshes, const ForEachIndex& for_each);
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options = {});
 
 }  // namespace flankwright

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/for_each_in_parallel.hpp"
 
 namespace flankwright::studies {
 
@@ -158,11 +159,12 @@ EffectSizes study_effect_sizes(const StudyResults& results) {
     if (asked != EffectSizing::Off && loaded.design != "before" && loaded.cycle.usable()) cases.push_back(&loaded);
   }
   std::vector<std::vector<EstimatedSize>> estimates(cases.size());
+  std::vector<EffectScene> scenes;
+  for (const LoadedResult* loaded : cases) scenes.push_back(scene_of(results, loaded->condition, loaded->torque, estimate_resolution(results)));
   EffectMeshes meshes;
-  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
-    estimates[i] =
-        estimate_effect_sizes(scene_of(results, cases[i]->condition, cases[i]->torque, estimate_resolution(results)), results.effects, {}, meshes);
-  });
+  for (const EffectScene& scene : scenes) make_effect_meshes(scene, results.effects, meshes, for_each_in_parallel);
+  tbb::parallel_for(std::size_t{0}, cases.size(),
+                    [&](std::size_t i) { estimates[i] = estimate_effect_sizes(scenes[i], results.effects, {}, meshes); });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const EstimatedSize& estimate : estimates[i]) {
       add(sizes.estimated, {cases[i]->scene, cases[i]->torque, estimate.size, estimate.positions, estimate.solved_again});

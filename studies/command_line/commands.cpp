@@ -107,9 +107,11 @@ int run_command(const RunOptions& options) {
     progress.show(label, done, total, remark);
   };
   if (shard) return run_shard(study, folder, *shard, report);
-  const FinishedRun run = finish_study(study, folder, report);
+  FinishedRun run = finish_study(study, folder, report);
   progress.finish();
-  return write_results(run, folder);
+  const int exit_code = write_results(run, folder);
+  discard(std::move(run));
+  return exit_code;
 }
 
 int merge_command(const RunOptions& options) {

@@ -1,5 +1,6 @@
 #include "studies/command_line/finished_run.hpp"
 
+#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <utility>
@@ -39,6 +40,13 @@ void write_files(const FinishedRun& run, const std::filesystem::path& folder) {
                          if (const auto write = run.results.study.task->write_files) write(run.results, folder);
                        },
                        [&] { write_tables(report_tables(run.document)); });
+}
+
+void discard(FinishedRun run) {
+  const auto loaded = run.document.find("loaded");
+  if (loaded == run.document.end() || !loaded->is_array()) return;
+  auto& cases = loaded->get_ref<Json::array_t&>();
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) { cases[i] = nullptr; });
 }
 
 }  // namespace flankwright::studies

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "core/fidelity/cycle_quantities.hpp"
@@ -55,6 +56,16 @@ Json drawn_list(const Json& list, const Draw& draw_entry) {
   return copy;
 }
 
+/// A member of an object; null where it has none.
+/// @param place  index at which it is looked for first and, afterwards, at which it was found
+const Json* member_near(const Json& object, std::string_view key, std::ptrdiff_t& place) {
+  if (!object.is_object()) return nullptr;
+  const auto& members = object.get_ref<const Json::object_t&>();
+  const auto is_at = [&](std::ptrdiff_t i) { return i < std::ssize(members) && members.begin()[i].first == key; };
+  if (!is_at(place)) place = std::ranges::find_if(members, [&](const auto& member) { return member.first == key; }) - members.begin();
+  return is_at(place) ? &members.begin()[place].second : nullptr;
+}
+
 /// List of points -> object of columns; those of tip edges and of the film only where a point of the list has them, the radius of the wheel only where life is drawn on it.
 Json columns_of(const Json& points, bool has_life) {
   if (!points.is_array()) return drawn(points);
@@ -66,9 +77,10 @@ Json columns_of(const Json& points, bool has_life) {
   Json columns = Json::object();
   for (const char* key : keys) {
     Json& column = columns[key] = Json::array();
+    std::ptrdiff_t place = 0;  // of the key in a point; nearly always that in the point before
     for (const Json& point : points) {
-      const bool has = point.is_object() && point.contains(key);
-      column.push_back(has ? drawn(point.at(key)) : Json());
+      const Json* value = member_near(point, key, place);
+      column.push_back(value != nullptr ? drawn(*value) : Json());
     }
   }
   return columns;
