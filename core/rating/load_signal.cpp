@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/error.hpp"
 #include "core/rating/rainflow.hpp"
@@ -29,10 +30,22 @@ class TorqueRanges {
   double width_;
 };
 
-/// A sample, its speed without direction.
 struct SignalSample {
   double time, torque, speed;
 };
+
+/// The samples, and one more where the pinion turns back between two of them; speeds without direction.
+std::vector<SignalSample> samples_of(const LoadSignal& signal) {
+  std::vector<SignalSample> samples;
+  for (std::size_t i = 0; i < signal.time.size(); ++i) {
+    if (i > 0 && signal.speed[i - 1] * signal.speed[i] < 0.0) {
+      const double share = signal.speed[i - 1] / (signal.speed[i - 1] - signal.speed[i]);
+      samples.push_back({std::lerp(signal.time[i - 1], signal.time[i], share), std::lerp(signal.torque[i - 1], signal.torque[i], share), 0.0});
+    }
+    samples.push_back({signal.time[i], signal.torque[i], std::abs(signal.speed[i])});
+  }
+  return samples;
+}
 
 /// A straight line between two samples, by the share of it from its lower torque to its higher one.
 struct SignalLine {
@@ -46,18 +59,13 @@ struct SignalLine {
     const double mean_speed = lower.speed + 0.5 * (from + to) * (upper.speed - lower.speed);
     return duration_of(from, to) * mean_speed / (2.0 * units::pi);
   }
-};
-
-/// Leaves levels that have cycles; those without are a time at a standstill.
-void keep_levels_with_cycles(LoadCount& count, std::vector<LoadLevel>&& levels) {
-  for (LoadLevel& level : levels) {
-    if (level.cycles > 0.0) {
-      count.levels.push_back(level);
-    } else if (!std::isnan(level.duration)) {
-      count.standing_duration += level.duration;
-    }
+  bool stands() const { return lower.speed == 0.0 && upper.speed == 0.0; }
+  /// Sum of the revolutions, each times its speed [rad/s].
+  double speed_of_revolutions(double from, double to) const {
+    const double a = std::lerp(lower.speed, upper.speed, from), b = std::lerp(lower.speed, upper.speed, to);
+    return duration_of(from, to) * (a * a + a * b + b * b) / 3.0 / (2.0 * units::pi);
   }
-}
+};
 
 void check_torque_ranges(int ranges) {
   if (ranges < 1) throw InvalidInput("ranges", std::to_string(ranges), "at least 1");
@@ -85,11 +93,11 @@ LoadCount count_time_at_level(const LoadSignal& signal, int ranges) {
   if (signal.speed.empty()) throw InvalidInput("speed", "none", "one for each time");
   const auto [least, largest] = std::ranges::minmax(signal.torque);
   const TorqueRanges range(std::max(0.0, least), std::max(0.0, largest), ranges);
-  std::vector<LoadLevel> levels(range.count(), LoadLevel{0.0, 0.0, 0.0});
+  std::vector<LoadLevel> levels(range.count(), LoadLevel{0.0, 0.0, 0.0, 0.0});
   LoadCount count;
-  const auto sample = [&](std::size_t i) { return SignalSample{signal.time[i], signal.torque[i], std::abs(signal.speed[i])}; };
-  for (std::size_t i = 0; i + 1 < signal.time.size(); ++i) {
-    const SignalSample a = sample(i), b = sample(i + 1);
+  const std::vector<SignalSample> samples = samples_of(signal);
+  for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
+    const SignalSample &a = samples[i], &b = samples[i + 1];
     const SignalLine line{a.torque <= b.torque ? a : b, a.torque <= b.torque ? b : a, b.time - a.time};
     double from = 0.0;
     if (line.lower.torque <= 0.0) {
@@ -102,14 +110,23 @@ LoadCount count_time_at_level(const LoadSignal& signal, int ranges) {
       const bool ends_here = line.is_level() || k + 1 == range.count() || range.top(k) >= line.upper.torque;
       const double to = ends_here ? 1.0 : line.share_at(range.top(k));
       if (to <= from) continue;
-      LoadLevel& level = levels[k];
-      level.torque = std::max(level.torque, ends_here ? line.upper.torque : range.top(k));
-      level.duration += line.duration_of(from, to);
-      level.cycles += line.revolutions_of(from, to);
+      if (line.stands()) {
+        count.standing_duration += line.duration_of(from, to);
+      } else {
+        LoadLevel& level = levels[k];
+        level.torque = std::max(level.torque, ends_here ? line.upper.torque : range.top(k));
+        level.duration += line.duration_of(from, to);
+        level.cycles += line.revolutions_of(from, to);
+        level.speed += line.speed_of_revolutions(from, to);
+      }
       from = to;
     }
   }
-  keep_levels_with_cycles(count, std::move(levels));
+  for (LoadLevel& level : levels) {
+    if (!(level.cycles > 0.0)) continue;
+    level.speed /= level.cycles;
+    count.levels.push_back(level);
+  }
   if (count.levels.empty()) throw InvalidInput("torque", "never above 0 while the pinion turns", "one that loads the working flank");
   return count;
 }
@@ -136,7 +153,7 @@ LoadCount count_rainflow(const LoadSignal& signal, int ranges) {
     level.cycles += swing.count;
   }
   LoadCount count;
-  keep_levels_with_cycles(count, std::move(levels));
+  std::ranges::copy_if(levels, std::back_inserter(count.levels), [](const LoadLevel& level) { return level.cycles > 0.0; });
   return count;
 }
 

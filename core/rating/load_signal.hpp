@@ -24,8 +24,9 @@ struct LoadSignal {
 /// What one torque stands for. It is the largest that occurs in its range of torques, so that no damage is left out as long as more torque does more of it.
 struct LoadLevel {
   double torque{0.0};          ///< [N mm], > 0
-  double duration{not_given};  ///< [s]
+  double duration{not_given};  ///< of time at level: while the pinion turns [s]
   double cycles{0.0};          ///< of time at level: revolutions of the pinion; of rainflow: cycles of the torque; > 0
+  double speed{not_given};     ///< of time at level: mean over its revolutions, so that slow parts count by the load cycles that they bring [rad/s]
 };
 
 /// A signal as load levels.
@@ -38,7 +39,7 @@ struct LoadCount {
 };
 
 /// Time and revolutions at equal ranges of torque between the smallest (at least 0) and the largest of the signal. Durations and revolutions of all parts add up to
-/// those of the signal. In each line the revolutions are those of a speed that changes evenly.
+/// those of the signal. In each line torque and speed change evenly; where the pinion turns back on the way it stands for a moment.
 /// @param ranges  >= 1
 /// @throws InvalidInput as validate(); "speed" where there is none, "torque" where it is never above 0 while the pinion turns
 LoadCount count_time_at_level(const LoadSignal& signal, int ranges);

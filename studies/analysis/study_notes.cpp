@@ -33,12 +33,13 @@ void note_crowning(const Modification& given, const Gear& gear, std::vector<std:
 
 /// A relief that is longer than the flank is no relief: it goes on to the other end.
 void note_long_reliefs(const Study& study, const Gear& gear, std::vector<std::string>& notes) {
+  const std::vector<DesignVariable> variables = varied_by_tasks(study);
   for (const ModificationDescriptor& amount : modification_parameters) {
     if (amount.extent.empty()) continue;
     const ModificationDescriptor& extent = *find_parameter(amount.extent);
     const auto varied = [&](const ModificationDescriptor& d) {
-      const auto found = std::ranges::find_if(study.optimise.variables, [&](const DesignVariable& v) { return v.touches(gear.member, d.parameter); });
-      return found == study.optimise.variables.end() ? nullptr : &*found;
+      const auto found = std::ranges::find_if(variables, [&](const DesignVariable& v) { return v.touches(gear.member, d.parameter); });
+      return found == variables.end() ? nullptr : &*found;
     };
     const Modification& given = study.modification[gear.member];
     const DesignVariable* range = varied(extent);
@@ -53,23 +54,14 @@ void note_long_reliefs(const Study& study, const Gear& gear, std::vector<std::st
   }
 }
 
-/// A quantile, or the mean beyond one, of fewer draws than one in which a single one lies beyond it.
-void note_few_draws(const ScatterTable& scatter, std::vector<std::string>& notes) {
-  const bool has_tail = scatter.statistic == Aggregate::Quantile || scatter.statistic == Aggregate::Cvar;
-  if (!scatter.asked() || !has_tail || scatter.draws * (1.0 - scatter.statistic.level) >= 1.0) return;
-  notes.push_back(fmt::format("the {:g} % quantile over {} draws is the largest of them: it takes {:.0f} for one to lie beyond it",
-                              100.0 * scatter.statistic.level, scatter.draws, std::ceil(1.0 / (1.0 - scatter.statistic.level) - 1e-9)));
-}
-
 /// A lead modification of a helical gear without a process: what twist grinding would bring. One that only an optimisation varies is taken as 1 um of
 /// crowning.
 void note_natural_twist(const Study& study, const GearPair& pair, Member m, std::vector<std::string>& notes) {
   Modification ground = study.modification[m];
   if (ground.process.kind != GrindingKind::None || pair.data.helix_angle == 0.0) return;
   const bool given = has_lead_modification(ground);
-  const bool varied = std::ranges::any_of(study.optimise.variables, [&](const DesignVariable& v) {
-    return v.member == m && describe(v.parameter).flank_class == ModificationClass::Lead;
-  });
+  const bool varied = std::ranges::any_of(
+      varied_by_tasks(study), [&](const DesignVariable& v) { return v.member == m && describe(v.parameter).flank_class == ModificationClass::Lead; });
   if (!given && !varied) return;
   if (!given) ground.lead_crowning = units::um;
   const auto twist = [&](GrindingKind kind) {
@@ -222,7 +214,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   note_crowning(study.modification.wheel, pair.wheel, notes);
   note_long_reliefs(study, pair.pinion, notes);
   note_long_reliefs(study, pair.wheel, notes);
-  note_few_draws(study.optimise.scatter, notes);
+  if (study.task->add_notes != nullptr) study.task->add_notes(study, notes);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
     note_unused_process_data(study, m, notes);

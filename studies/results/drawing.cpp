@@ -111,7 +111,7 @@ std::pair<double, double> limits_of(const Distribution& distribution) {
 std::vector<AmountTolerance> given_tolerances(const Study& study, Member member, const Modification& modification) {
   const std::string table = std::string(name_of(member)) + ".modification.";
   std::vector<AmountTolerance> all;
-  for (const SceneTolerance& tolerance : study.optimise.assessment.tolerances) {
+  for (const SceneTolerance& tolerance : study.tolerances) {
     if (tolerance.of_class || !tolerance.path.starts_with(table)) continue;
     const ModificationDescriptor* d = find_parameter(std::string_view(tolerance.path).substr(table.size()));
     if (d == nullptr) continue;
@@ -152,7 +152,7 @@ FlankDrawing make_drawing(const GearPair& pair, Member member, const Modificatio
 
 std::vector<FlankDrawing> drawings_of(const StudyResults& results) {
   const Study& study = results.study;
-  const std::optional<int> tolerance_class = study.drawing_class ? study.drawing_class : study.optimise.scatter.iso_1328_class;
+  const std::optional<int> tolerance_class = study.drawing_class ? study.drawing_class : study.tolerance_class;
   std::vector<FlankDrawing> drawings;
   if (!tolerance_class) return drawings;
   const PerGear<Modification>& ground = results.designs.empty() ? study.modification : results.designs.back().modification;

@@ -15,12 +15,10 @@
 #include "core/flank/modifications/modification.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
 #include "optimize/design/design_task.hpp"
-#include "optimize/solvers/solver_options.hpp"
-#include "studies/study/assessment_table.hpp"
 #include "studies/study/life_table.hpp"
-#include "studies/study/scatter_table.hpp"
-#include "studies/study/sweep_table.hpp"
+#include "studies/study/scene_tolerance.hpp"
 #include "studies/study/task.hpp"
+#include "studies/study/task_tables.hpp"
 
 /// A study as pure data: the contents of a study file, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
@@ -69,57 +67,12 @@ struct GivenGrid {
   double rms{not_given}, largest{not_given};                   ///< distance of the fitted surface from the points [mm]
 };
 
-struct OptimiseTable {
-  std::vector<ObjectiveTerm> objective;
-  Aggregation over;
-  SolverOptions solver{.name = "nlopt:slsqp", .progress = {}, .stop_when = {}};
-  std::vector<DesignVariable> variables;
-  std::vector<OutputConstraint> constraints;
-  std::vector<LinkingConstraint> links;
-  std::vector<ModificationConstraint> modification_constraints;
-  std::vector<Objective> later_objectives;  ///< later objectives of a list
-  double lexicographic_tolerance{0.01};
-  double edge_margin{0.05};
-  double step{0.0};  ///< of variables that have none of their own [mm]; amounts only
-  int starts{1};
-  std::vector<Objective> pareto_objectives;  ///< empty: no front
-  int pareto_points{9};
-  AssessmentTable assessment;
-  ScatterTable scatter;
-  GrindableAmounts grindable;
-  std::optional<double> largest_amount;   ///< that can be ground [mm]
-  std::optional<double> steepest_relief;  ///< that can be ground [um/mm]
-};
-
 /// One parameter of analyse.gradients.
 struct GradientParameter {
   std::string path;  ///< as the study names it: "misalignment.crossing"
   MeshParameter parameter;
   std::string unit;       ///< of a bare number of that key
   double unit_size{1.0};  ///< one such unit in internal ones
-};
-
-/// [fit]: which gears' compliance is fitted, and how.
-struct FitChoice {
-  PerGear<bool> gears{true, true};
-  bool several_teeth{false};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
-  bool test_grid{true};       ///< compared at stations that the fit has not seen
-  int max_iterations{300};    ///< trust-region steps
-};
-
-/// [accuracy.outside]: the transmission error of the same pair from elsewhere: a test rig, another program.
-struct OutsideCurve {
-  std::string name{"outside"};
-  std::vector<double> transmission_error;  ///< at evenly spaced positions over one pitch, the first at phase 0; at least 3 [mm]
-};
-
-/// [accuracy]: the finest fidelity level, which all others are compared with; graded quadrature, refined peaks.
-struct AccuracyTable {
-  ComplianceModel compliance{ComplianceModel::Fitted};
-  GapModel gap{GapModel::WholeSurface};
-  int intervals{16};       ///< >= 8
-  int positions{64};       ///< >= 16
-  OutsideCurve outside{};  ///< without values: none; the study then has one load case
 };
 
 /// [expect]: one key of results.json and its expected value.
@@ -163,15 +116,24 @@ struct Study {
   Fidelity fidelity;
   std::vector<Scene> scenes;                 ///< never empty: without [[scenes]] the one nominal scene of the base tables
   std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where the task is "analyse"
-  OptimiseTable optimise;                    ///< of the task "optimise"
-  SweepTable sweep;                          ///< of the task "sweep"
-  AccuracyTable accuracy;                    ///< of the task "accuracy"
+  TaskTables tables;                         ///< what it says to its tasks, see table()
+  std::vector<SceneTolerance> tolerances;    ///< of assembly and manufacture, those of the class in front
+  std::optional<int> tolerance_class;        ///< of both gears; none: tolerances are given one by one
   bool points_of_all_cases{true};            ///< contact points of every load case in the results; false: of those that govern
-  std::optional<int> drawing_class;          ///< of the drawing of the flanks; none: that of optimise.scatter
-  FitChoice fit;                             ///< of the task "fit"
+  std::optional<int> drawing_class;          ///< of the drawing of the flanks; none: that of the tolerances
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
   std::string text;  ///< all of it as TOML, with what the command line set
+
+  /// The table of a task, which declares its type in its folder; as it begins where the study says nothing of it.
+  template <class Table>
+  const Table& table() const {
+    return tables.get<Table>();
+  }
+  template <class Table>
+  Table& table() {
+    return tables.get<Table>();
+  }
 };
 
 /// Whether a scene loads the flanks that are not the pair's own.

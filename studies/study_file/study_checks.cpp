@@ -55,14 +55,11 @@ void check_tooth_lists(StudyReading& reading) {
   }
 }
 
-/// A variable, or what is tied to one.
-const DesignVariable* find_variable(const Study& study, Member m, ModificationParameter parameter) {
-  const auto& variables = study.optimise.variables;
-  const auto found = std::ranges::find_if(variables, [&](const DesignVariable& v) { return v.member == m && v.parameter == parameter; });
-  if (found != variables.end()) return &*found;
-  const auto& links = study.optimise.links;
-  const auto link = std::ranges::find_if(links, [&](const LinkingConstraint& t) { return t.linked.member == m && t.linked.parameter == parameter; });
-  return link == links.end() ? nullptr : &link->linked;
+std::optional<DesignVariable> find_variable(const Study& study, Member m, ModificationParameter parameter) {
+  for (const DesignVariable& v : varied_by_tasks(study)) {
+    if (v.member == m && v.parameter == parameter) return v;
+  }
+  return std::nullopt;
 }
 
 bool asks_derivative(const Study& study, Member m, ModificationParameter parameter) {
@@ -78,23 +75,23 @@ void check_relief(StudyReading& reading, Member m, const ModificationDescriptor&
   const Modification& modification = study.modification[m];
   const std::string prefix = std::string(name_of(m)) + ".modification.";
   const std::string amount_path = prefix + std::string(of_amount.key), path = prefix + std::string(of_extent.key);
-  const DesignVariable* amount = find_variable(study, m, of_amount.parameter);
-  const DesignVariable* extent = find_variable(study, m, of_extent.parameter);
-  const bool has_amount = amount != nullptr || of_amount.get(modification) != 0.0;
-  if (extent != nullptr && !has_amount) {
+  const std::optional<DesignVariable> amount = find_variable(study, m, of_amount.parameter);
+  const std::optional<DesignVariable> extent = find_variable(study, m, of_extent.parameter);
+  const bool has_amount = amount.has_value() || of_amount.get(modification) != 0.0;
+  if (extent.has_value() && !has_amount) {
     return reading.refuse_key("optimise.variables." + path, "has no effect while " + amount_path + " is 0: give it a value or make it a variable");
   }
   const bool has_derivative = asks_derivative(study, m, of_amount.parameter);
   if (!has_amount && !has_derivative) return;
   if (of_amount.needs_helix && study.pair.helix_angle == 0.0) {
-    const std::string asked_by = amount != nullptr ? "optimise.variables." + amount_path : has_amount ? amount_path : "analyse.gradients";
+    const std::string asked_by = amount.has_value() ? "optimise.variables." + amount_path : has_amount ? amount_path : "analyse.gradients";
     return reading.refuse_key(asked_by, "allowed is a helical pair: the lines of contact of a spur pair cut off no corner");
   }
-  if (extent != nullptr && extent->lower <= 0.0) {
+  if (extent.has_value() && extent->lower <= 0.0) {
     return reading.refuse_key("optimise.variables." + path, "allowed is a lower bound above 0 mm: the relief is spread over it");
   }
-  if (extent != nullptr || of_extent.get(modification) > 0.0) return;
-  const std::string asked_by = has_amount ? (amount != nullptr ? "optimise.variables." : "") + amount_path : "analyse.gradients";
+  if (extent.has_value() || of_extent.get(modification) > 0.0) return;
+  const std::string asked_by = has_amount ? (amount.has_value() ? "optimise.variables." : "") + amount_path : "analyse.gradients";
   const bool is_given = reading.find(path) != nullptr;
   const Position at = reading.where(is_given ? path : asked_by);
   reading.refuse(at, path, is_given ? reading.find(path)->node : nullptr, "set " + path + " above 0 mm: the relief's amount is spread over it");
@@ -126,7 +123,7 @@ void check_parabola(StudyReading& reading, Member m) {
     }
   };
   check(path, study.modification[m].parabolic_te);
-  if (const DesignVariable* variable = find_variable(study, m, parameter_of("parabolic_te"))) {
+  if (const auto variable = find_variable(study, m, parameter_of("parabolic_te"))) {
     check("optimise.variables." + path, variable->upper);
   }
 }

@@ -13,23 +13,23 @@ namespace {
 
 constexpr const char* signal_path = "load.spectrum.signal";
 
-/// A bin of time at level; without revolutions it has no speed.
-SpectrumBin turning_bin(double torque, double duration, double revolutions, double repeats) {
-  SpectrumBin bin;
-  bin.torque = torque;
-  bin.speed = revolutions > 0.0 ? 2.0 * units::pi * revolutions / duration : not_given;
-  bin.hours = repeats * duration;
-  bin.cycles = repeats * revolutions;
-  return bin;
+/// Time without load; without revolutions it has no speed.
+SpectrumBin idle_bin(const LoadCount& count, double repeats) {
+  const double revolutions = count.idle_revolutions;
+  return {.torque = 0.0,
+          .speed = revolutions > 0.0 ? 2.0 * units::pi * revolutions / count.idle_duration : not_given,
+          .hours = repeats * count.idle_duration,
+          .cycles = repeats * revolutions};
 }
 
 std::vector<SpectrumBin> bins_of(const CountedSignal& counted) {
   const LoadCount& count = counted.count;
   std::vector<SpectrumBin> bins;
-  if (count.idle_duration > 0.0) bins.push_back(turning_bin(0.0, count.idle_duration, count.idle_revolutions, counted.repeats));
+  if (count.idle_duration > 0.0) bins.push_back(idle_bin(count, counted.repeats));
   for (const LoadLevel& level : count.levels) {
     if (counted.counting == LoadCounting::TimeAtLevel) {
-      bins.push_back(turning_bin(level.torque, level.duration, level.cycles, counted.repeats));
+      bins.push_back(
+          {.torque = level.torque, .speed = level.speed, .hours = counted.repeats * level.duration, .cycles = counted.repeats * level.cycles});
     } else {
       bins.push_back({.torque = level.torque, .cycles = counted.repeats * level.cycles, .same_teeth = true});
     }

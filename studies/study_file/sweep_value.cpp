@@ -27,21 +27,6 @@ bool is_in_range(const SchemaKey& key, double value) {
   return std::isfinite(value) && above && below;
 }
 
-std::vector<SweptCondition> extreme_conditions(const Study& study) {
-  constexpr double outer_share = 1e-6;  // beyond either end
-  std::vector<SweptCondition> conditions;
-  for (const SweepParameter& p : study.sweep.parameters) {
-    const SchemaKey& key = *study_keys().at(p.path);
-    for (const double u : {outer_share, 1.0 - outer_share}) {
-      const double value = p.distribution.quantile(u);
-      if (!p.pitch && !is_in_range(key, value)) continue;
-      conditions.push_back(SweptCondition::of(study));
-      set_swept(conditions.back(), p, value);
-    }
-  }
-  return conditions;
-}
-
 void set_swept(SweptCondition& condition, const SchemaKey& key, double value) {
   if (!is_in_range(key, value)) throw InvalidInput(key.path, fmt::format("{:.6g}", value), allowed_values(key));
   const double inside = internal_value(value, key.quantity);
@@ -65,12 +50,6 @@ void set_drawn_pitch(ManufacturingError& error, const PitchTolerance& tolerance,
   error.pitch_step = 0.0;
   error.cumulative_pitch.clear();
   for (const double um : pitch_of_draw(tolerance, value)) error.cumulative_pitch.push_back(internal_value(um, Quantity::Deviation));
-}
-
-void set_swept(SweptCondition& condition, const SweepParameter& parameter, double value) {
-  const SchemaKey& key = *study_keys().at(parameter.path);
-  if (!parameter.pitch) return set_swept(condition, key, value);
-  set_drawn_pitch(condition.scene.error[key.member], *parameter.pitch, value);
 }
 
 }  // namespace flankwright::studies

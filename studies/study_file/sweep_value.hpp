@@ -30,16 +30,9 @@ struct SweptCondition {
   }
 };
 
-/// What a sweep's parameters do at the low and at the high end of their distributions, one by one; what is out of range there is left out. For
-/// decisions that must hold for every sample.
-std::vector<SweptCondition> extreme_conditions(const Study& study);
-
 /// Puts a value, in the unit of a bare number, in the place of a sweepable key's.
 /// @throws InvalidInput where it is out of the key's range
 void set_swept(SweptCondition& condition, const SchemaKey& key, double value);
-
-/// The same of a sweep's parameter; of a pitch by tolerance class the deviations of every tooth, drawn by the whole part of the value.
-void set_swept(SweptCondition& condition, const SweepParameter& parameter, double value);
 
 /// The pitch deviations that a value stands for, drawn_pitch(), as a study file writes them [um]; and put in the place of a gear's.
 std::vector<double> pitch_of_draw(const PitchTolerance& tolerance, double value);

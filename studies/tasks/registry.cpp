@@ -2,6 +2,7 @@
 #include <array>
 
 #include "core/base/error.hpp"
+#include "optimize/design/design_task.hpp"
 #include "studies/study/task.hpp"
 #include "studies/tasks/accuracy/accuracy_task.hpp"
 #include "studies/tasks/analyse/analyse_task.hpp"
@@ -17,6 +18,15 @@ std::span<const Task* const> registered_tasks() {
       &analyse_task, &optimise_task, &sweep_task, &accuracy_task, &fit_task, &geometry_task,
   };
   return tasks;
+}
+
+std::vector<DesignVariable> varied_by_tasks(const Study& study) {
+  std::vector<DesignVariable> all;
+  for (const Task* task : registered_tasks()) {
+    if (task->varied == nullptr) continue;
+    for (const DesignVariable& variable : task->varied(study)) all.push_back(variable);
+  }
+  return all;
 }
 
 const Task& find_task(std::string_view name) {

@@ -7,6 +7,7 @@
 #include "studies/tasks/accuracy/accuracy_template.hpp"
 #include "studies/tasks/accuracy/accuracy_json.hpp"
 #include "studies/tasks/accuracy/accuracy_tables.hpp"
+#include "studies/tasks/accuracy/accuracy_table.hpp"
 
 namespace flankwright::studies {
 
@@ -18,11 +19,11 @@ void run_accuracy(StudyRun& run) {
   LevelRunner runner(run.level_subject(), run.progress());
   const Study& study = results.study;
   const int intervals = study.fidelity.quadrature.intervals, positions = study.cycle.positions;
-  if (intervals > study.accuracy.intervals || positions > study.accuracy.positions) {
+  if (intervals > study.table<AccuracyTable>().intervals || positions > study.table<AccuracyTable>().positions) {
     results.notes.push_back(
         fmt::format("the finest level of the table (accuracy.finest: {} intervals, {} positions) is coarser than the results of this study "
                     "({} intervals, {} positions)",
-                    study.accuracy.intervals, study.accuracy.positions, intervals, positions));
+                    study.table<AccuracyTable>().intervals, study.table<AccuracyTable>().positions, intervals, positions));
   }
   const auto hierarchy = std::make_shared<const FidelityHierarchy>(run_hierarchy(runner, run.progress()));
   results.steps.push_back({"accuracy_ladder", "all fidelity levels together", hierarchy->seconds});

@@ -11,6 +11,7 @@
 #include "core/base/limit_estimate.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
+#include "studies/tasks/accuracy/accuracy_table.hpp"
 
 namespace flankwright::studies {
 
@@ -144,7 +145,7 @@ std::vector<HierarchyStep*> all_steps(FidelityHierarchy& hierarchy) {
 
 /// Every level at the positions of the study's outside curve, if it has one.
 void add_outside_differences(FidelityHierarchy& hierarchy, LevelRunner& runner) {
-  const OutsideCurve& curve = runner.subject().study.accuracy.outside;
+  const OutsideCurve& curve = runner.subject().study.table<AccuracyTable>().outside;
   if (curve.transmission_error.empty() || !hierarchy.usable()) return;
   hierarchy.outside = outside_figures(curve);
   for (HierarchyStep* step : all_steps(hierarchy)) {
@@ -189,7 +190,7 @@ std::vector<bool> pareto_best(const std::vector<double>& cost, const std::vector
 
 std::vector<FidelityLevel> hierarchy_levels(const LevelRunner& runner) {
   const Study& study = runner.subject().study;
-  const FidelityLevel finest = finest_level(study.accuracy);
+  const FidelityLevel finest = finest_level(study.table<AccuracyTable>());
   const MeshEffects effects = runner.effects(finest);
   std::vector<FidelityLevel> fidelity_levels{finest};
   add_model_levels(effects, fidelity_levels);

@@ -4,6 +4,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "studies/compliance/study_compliance.hpp"
+#include "studies/tasks/fit/fit_choice.hpp"
 
 namespace flankwright::studies {
 
@@ -21,7 +22,7 @@ constexpr double cost_tolerance = 1e-5;
 }  // namespace
 
 GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member member) {
-  const FitChoice& choice = study.fit;
+  const FitChoice& choice = study.table<FitChoice>();
   GearFitTask task;
   const InfluenceTableTask table = influence_table_task(compliance_task(study, pair), member);
   task.gear = table.gear;
@@ -42,12 +43,12 @@ GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member membe
 std::vector<GearFit> fit_gears(const Study& study, const GearPair& pair, const ProgressReport& progress) {
   std::vector<GearFit> fits;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    if (!study.fit.gears[member]) continue;
+    if (!study.table<FitChoice>().gears[member]) continue;
     const Stopwatch clock;
     const auto report = [&](const std::string& label, int done, int total) {
       if (progress) progress(fmt::format("{}: {}", name_of(member), label), done, total, "");
     };
-    GearFit fit{member, fit_gear(gear_fit_task(study, pair, member), report), study.fit.several_teeth};
+    GearFit fit{member, fit_gear(gear_fit_task(study, pair, member), report), study.table<FitChoice>().several_teeth};
     fit.seconds = clock.seconds();
     fits.push_back(std::move(fit));
   }

@@ -11,6 +11,7 @@
 #include "studies/base/plain_names.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/listed_scenes.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -118,7 +119,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
                           const ProgressReport& progress) {
   const Stopwatch clock;
   Assessment assessment;
-  if (study.optimise.assessment.rules) {
+  if (study.table<OptimiseTable>().assessment.rules) {
     if (progress) progress("trying rules of thumb", 0, 1, "");
     assessment.basis = rule_basis(problem);
     const std::vector<NamedDesign> rules = rules_of_thumb(problem.task(), *assessment.basis);
@@ -126,8 +127,8 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
         !std::ranges::equal(problem.task().constraints, asked.constraints, {}, &OutputConstraint::limit, &OutputConstraint::limit);
     assessment.rules = compare_designs_by_two_levels(has_tighter_limits ? DesignProblem(asked) : problem, rules);
   }
-  if (study.optimise.assessment.variants > 0.0) {
-    assessment.variants = search_all_variants(problem, study.optimise.assessment.variants * design.evaluations, progress);
+  if (study.table<OptimiseTable>().assessment.variants > 0.0) {
+    assessment.variants = search_all_variants(problem, study.table<OptimiseTable>().assessment.variants * design.evaluations, progress);
   }
   // Rounding to the grinder's steps leaves the optimum.
   if (design.exact) assessment.is_of = design.choices.empty() ? AssessedDesign::BeforeRounding : AssessedDesign::BeforeChoices;
@@ -145,7 +146,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
     assessment.judged = last.task();
     assessment.judged->constraints = asked.constraints;
     if (progress) progress("looking for the usual signs", 0, 1, "");
-    assessment.usual = find_usual_signs(last, best, left_of(study.optimise.solver, design).max_seconds);
+    assessment.usual = find_usual_signs(last, best, left_of(study.table<OptimiseTable>().solver, design).max_seconds);
   }
   assessment.seconds = clock.seconds();
   return assessment;
@@ -155,7 +156,7 @@ Validation validate(const Study& study, const DesignTask& task, const DesignResu
                     const ComparedDesign* best_rule) {
   const Stopwatch clock;
   Validation validation;
-  validation.seed = study.optimise.assessment.validation.seed;
+  validation.seed = study.table<OptimiseTable>().assessment.validation.seed;
   validation.load_cases = load_cases_in_words(study);
   std::vector<NamedDesign> designs{{"before", "", design.before.analysis.modification.pinion, design.before.analysis.modification.wheel},
                                    {"after", "", design.after.analysis.modification.pinion, design.after.analysis.modification.wheel}};

@@ -168,7 +168,7 @@ Json spread_json(const ValidatedDesign& design, double low, double high, int bin
           {"greatest", spread.greatest}, {"quantiles", quantiles},        {"histogram", histogram(design.measures, low, high, bins)}};
 }
 
-Json validation_json(const Validation& validation, const DesignTask& task, const AssessmentTable& asked) {
+Json validation_json(const Validation& validation, const DesignTask& task, const std::vector<SceneTolerance>& tolerances) {
   constexpr int bins = 24;
   std::vector<double> all;
   for (const ValidatedDesign& d : validation.designs) all.insert(all.end(), d.measures.begin(), d.measures.end());
@@ -179,7 +179,7 @@ Json validation_json(const Validation& validation, const DesignTask& task, const
   Json json{{"samples", validation.draws.size()},
             {"seed", validation.seed},
             {"seconds", validation.seconds},
-            {"tolerances", list(asked.tolerances, tolerance_json)},
+            {"tolerances", list(tolerances, tolerance_json)},
             {"words", validation_in_words(validation, task)},
             {"share_better_than_before", share_below(after, validation.designs[0].measures)},
             {"bin_edges", edges},
@@ -198,11 +198,11 @@ Json tolerance_json(const SceneTolerance& tolerance) {
   return json;
 }
 
-void add_assessment(const Assessment& assessment, const DesignTask& task, const AssessmentTable& asked, Json& optimise) {
+void add_assessment(const Assessment& assessment, const DesignTask& task, const Study& study, Json& optimise) {
   optimise["comparison"] = comparison_json(assessment, task);
   optimise["proof_seconds"] = assessment.seconds;
   if (assessment.is_of != AssessedDesign::Shown) optimise["assessed_design"] = assessed_design_in_words(assessment.is_of);
-  if (assessment.validation) optimise["validation"] = validation_json(*assessment.validation, task, asked);
+  if (assessment.validation) optimise["validation"] = validation_json(*assessment.validation, task, study.tolerances);
   if (assessment.relaxation) optimise["relaxation"] = relaxation_json(*assessment.relaxation, task);
   if (!assessment.optimum) return;
   optimise["governing"] = governing_json(*assessment.optimum, *assessment.judged);

@@ -9,6 +9,6 @@ namespace flankwright::studies {
 Json tolerance_json(const SceneTolerance& tolerance);
 
 /// Adds `comparison`, `validation`, `governing` and `sensitivity` to the `optimise` part of the results.
-void add_assessment(const Assessment& assessment, const DesignTask& task, const AssessmentTable& asked, Json& optimise);
+void add_assessment(const Assessment& assessment, const DesignTask& task, const Study& study, Json& optimise);
 
 }  // namespace flankwright::studies

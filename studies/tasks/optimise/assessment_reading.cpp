@@ -10,6 +10,7 @@
 #include "studies/study_file/study_items.hpp"
 #include "studies/study_file/distribution_reading.hpp"
 #include "studies/study_file/sweep_value.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -17,7 +18,7 @@ namespace {
 
 constexpr const char* table_name = "optimise.tolerances";
 
-std::vector<SceneTolerance>& tolerances_of(StudyReading& reading) { return reading.builder.study.optimise.assessment.tolerances; }
+std::vector<SceneTolerance>& tolerances_of(StudyReading& reading) { return reading.builder.study.tolerances; }
 
 /// An amount of a modification, which scatters about what is designed.
 bool is_amount(const SchemaKey& key) {
@@ -83,13 +84,14 @@ void read_clearance(StudyReading& reading, const Item& item) {
 }
 
 void check_samples(StudyReading& reading) {
-  const AssessmentTable& assessment = reading.builder.study.optimise.assessment;
+  const Study& study = reading.builder.study;
+  const AssessmentTable& assessment = study.table<OptimiseTable>().assessment;
   for (const auto& [key, drawn] :
        {std::pair{"optimise.validation.samples", &assessment.validation}, std::pair{"optimise.scenes_drawn.samples", &assessment.scenes}}) {
-    if (drawn->samples == 0 || !assessment.tolerances.empty()) continue;
+    if (drawn->samples == 0 || !study.tolerances.empty()) continue;
     reading.refuse(reading.where(key), key, reading.find(key)->node, "set optimise.tolerances: scenes are drawn from them");
   }
-  if (static_cast<int>(assessment.tolerances.size()) > sobol_dimensions) {
+  if (static_cast<int>(study.tolerances.size()) > sobol_dimensions) {
     reading.refuse(reading.where(table_name), table_name, nullptr, "at most " + std::to_string(sobol_dimensions) + " quantities");
   }
 }

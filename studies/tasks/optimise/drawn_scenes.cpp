@@ -8,6 +8,7 @@
 
 #include "optimize/sampling/sample_design.hpp"
 #include "studies/study_file/sweep_value.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -70,9 +71,7 @@ std::vector<OperatingState> operating_states(const Study& study, const std::vect
   return states;
 }
 
-std::vector<Scene> draw_scenes(const Study& study, const DrawnScenes& drawn) {
-  return draw_scenes(study, study.optimise.assessment.tolerances, drawn);
-}
+std::vector<Scene> draw_scenes(const Study& study, const DrawnScenes& drawn) { return draw_scenes(study, study.tolerances, drawn); }
 
 std::vector<Scene> draw_scenes(const Study& study, const std::vector<SceneTolerance>& tolerances, const DrawnScenes& drawn) {
   std::vector<Scene> scenes;
@@ -94,7 +93,7 @@ std::vector<Scene> draw_scenes(const Study& study, const std::vector<SceneTolera
 }
 
 std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScenes& drawn) {
-  const std::vector<SceneTolerance>& tolerances = study.optimise.assessment.tolerances;
+  const std::vector<SceneTolerance>& tolerances = study.tolerances;
   if (drawn.samples == 0 || tolerances.empty()) return std::nullopt;
   const std::vector<OperatingState> states = operating_states(study, tolerances);
   const SampleDesign design(Sampler::Sobol, drawn.samples, static_cast<int>(tolerances.size()), drawn.seed);
@@ -113,10 +112,10 @@ std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScen
 std::string name_of_draw(int draw) { return "drawn " + std::to_string(draw + 1); }
 
 std::string load_cases_in_words(const Study& study) {
-  const std::vector<OperatingState> states = operating_states(study, study.optimise.assessment.tolerances);
+  const std::vector<OperatingState> states = operating_states(study, study.tolerances);
   std::vector<std::string> names;
   std::ptrdiff_t load_cases = 0;
-  const bool is_summed = Objective{study.optimise.objective, {}}.over_spectrum();  // the load spectrum is then one load case
+  const bool is_summed = Objective{study.table<OptimiseTable>().objective, {}}.over_spectrum();  // the load spectrum is then one load case
   for (const OperatingState& state : states) {
     names.push_back(state.scene.name);
     load_cases += is_summed ? 1 : std::ranges::count_if(state.scene.torques, [](double torque) { return torque > 0.0; });
@@ -126,7 +125,7 @@ std::string load_cases_in_words(const Study& study) {
   std::string words = ", each";
   if (has_states) words += fmt::format(" in {} operating states ({})", states.size(), fmt::join(names, ", "));
   if (has_torques) words += fmt::format(" with {} load cases", load_cases);
-  const Aggregation& within = study.optimise.over;
+  const Aggregation& within = study.table<OptimiseTable>().over;
   if (within == Aggregate::Worst) return words + ", the worst of which counts";
   if (within == Aggregate::Nominal) return words + ", the first of which counts";
   return words + ", of which the " + to_string(within) + " counts";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "studies/study/study.hpp"
+#include "studies/tasks/optimise/assessment_table.hpp"
 
 namespace flankwright::studies {
 

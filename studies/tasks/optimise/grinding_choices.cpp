@@ -7,6 +7,7 @@
 
 #include "optimize/design/design_log.hpp"
 #include "studies/base/plain_names.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -49,7 +50,7 @@ const SchemaKey* key_of_pair(StudyReading& reading, const Match& match, const to
 }
 
 void read_pair(StudyReading& reading, const Match& match, const toml::node& node) {
-  OptimiseTable& optimise = reading.builder.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const auto refuse = [&](const std::string& allowed) { reading.refuse(match.position, match.path, &node, allowed); };
   const toml::array* names = node.as_array();
   if (names == nullptr || names->size() != 2) return refuse("allowed is " + allowed_values(*match.key));
@@ -68,7 +69,7 @@ void read_pair(StudyReading& reading, const Match& match, const toml::node& node
 
 /// Every varied amount must be able to be 0 or the smallest.
 void check_smallest(StudyReading& reading) {
-  const OptimiseTable& optimise = reading.builder.study.optimise;
+  const OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const double smallest = optimise.grindable.smallest;
   if (smallest == 0.0) return;
   if (optimise.largest_amount && smallest > *optimise.largest_amount) {

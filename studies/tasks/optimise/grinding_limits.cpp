@@ -6,6 +6,7 @@
 #include "optimize/design/design_log.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/study_file/key_rows.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -46,22 +47,22 @@ std::vector<SchemaKey> grinding_limit_keys() {
   return {
       {.path = "optimise.grinding.largest_amount", .quantity = Quantity::Deviation, .range = above_zero(1000.0), .fallback = "(no limit)",
        .meaning = "of every varied amount, either way",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.largest_amount = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().largest_amount = v.number; }},
       {.path = "optimise.grinding.smallest_amount", .quantity = Quantity::Deviation, .range = above_zero(1000.0), .fallback = "(no limit)",
        .meaning = "of every varied amount, either way: one that the search leaves below it becomes 0 or at least this, whichever is better",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.grindable.smallest = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().grindable.smallest = v.number; }},
       {.path = "optimise.grinding.not_together", .kind = ValueKind::KeyPairs, .fallback = "(none)",
        .meaning = "[[\"pinion.modification.tip_relief\", \"pinion.modification.profile_crowning\"]]: not ground at once; the better of the two alternatives without one of them is chosen"},
       {.path = "optimise.grinding.steepest_relief", .range = above_zero(1e4), .fallback = "(no limit)",
        .meaning = "um per mm: amount of every varied relief over its height or length",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.optimise.steepest_relief = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().steepest_relief = v.number; }},
   };
 }
 
 // clang-format on
 
 void read_grinding_limits(StudyReading& reading) {
-  OptimiseTable& optimise = reading.builder.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const std::vector<DesignVariable> varied = changed(optimise);
   if (optimise.largest_amount) {
     for (const DesignVariable& v : varied) {

@@ -10,20 +10,21 @@
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/study_file/study_life.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
 bool minimises_root_stress(const Study& study) {
   const auto is_root_stress = [](const ObjectiveTerm& term) { return design_output(term.output).of_roots; };
   const auto in_objective = [&](const Objective& objective) { return std::ranges::any_of(objective.terms, is_root_stress); };
-  const OptimiseTable& optimise = study.optimise;
+  const OptimiseTable& optimise = study.table<OptimiseTable>();
   return std::ranges::any_of(optimise.objective, is_root_stress) ||
          std::ranges::any_of(optimise.constraints, is_root_stress, &OutputConstraint::output) ||
          std::ranges::any_of(optimise.later_objectives, in_objective) || std::ranges::any_of(optimise.pareto_objectives, in_objective);
 }
 
 void check_variables(StudyReading& reading) {
-  const OptimiseTable& optimise = reading.builder.study.optimise;
+  const OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const auto is_variable = [&](const std::string& path) {
     return std::ranges::any_of(optimise.variables, [&](const DesignVariable& v) { return v.path == path; });
   };
@@ -62,7 +63,7 @@ void check_edge_outputs(StudyReading& reading) {
   const PairData& pair = reading.builder.study.pair;
   const Fidelity& fidelity = reading.builder.study.fidelity;
   const bool has_effect = fidelity.automatic_effects || std::ranges::find(fidelity.effects, "edge_contact") != fidelity.effects.end();
-  for (const auto& [key, term] : all_terms(reading.builder.study.optimise)) {
+  for (const auto& [key, term] : all_terms(reading.builder.study.table<OptimiseTable>())) {
     if (term.output != Output::EdgeStress && term.output != Output::TipEdgeShare) continue;
     if (!has_effect)
       return reading.refuse_key(key, term.name + " needs the effect edge_contact: fidelity.effects = \"auto\" or a list with \"edge_contact\"");
@@ -86,15 +87,15 @@ void check_life_outputs(StudyReading& reading) {
   const auto refuse = [&](const std::string& key, const ObjectiveTerm& term, const char* needs) {
     reading.refuse_key(key, term.name + " is asked for and needs " + needs);
   };
-  check_sums(reading, "optimise.objective", study.optimise.objective);
-  for (const Objective& objective : study.optimise.later_objectives) check_sums(reading, "optimise.objective", objective.terms);
+  check_sums(reading, "optimise.objective", study.table<OptimiseTable>().objective);
+  for (const Objective& objective : study.table<OptimiseTable>().later_objectives) check_sums(reading, "optimise.objective", objective.terms);
   const std::shared_ptr<const LifeModel> life = life_model(study);
   const auto named = [&](const char* table) { return reading.find(std::string(table) + "material.strength.kind") != nullptr; };
   const bool is_named = named("") || named("pinion.") || named("wheel.");  // and has curves, or was refused already
   const auto has_curve = [&](auto FatigueStrength::*kind) {
     return is_named || (life && (life->strength.pinion.*kind || life->strength.wheel.*kind));
   };
-  for (const auto& [key, term] : all_terms(study.optimise)) {
+  for (const auto& [key, term] : all_terms(study.table<OptimiseTable>())) {
     const DesignOutput& row = design_output(term.output);
     if (row.is_least && !key.starts_with("optimise.constraints."))
       reading.refuse_key(key, term.name + " is better where it is large: allowed is { min = ... } in optimise.constraints");
@@ -131,8 +132,8 @@ void check_life_outputs(StudyReading& reading) {
 void check_draws(StudyReading& reading) {
   if (!reading.problems.empty()) return;
   const Study& study = reading.builder.study;
-  const AssessmentTable& assessment = study.optimise.assessment;
-  const ScatterTable& scatter = study.optimise.scatter;
+  const AssessmentTable& assessment = study.table<OptimiseTable>().assessment;
+  const ScatterTable& scatter = study.table<OptimiseTable>().scatter;
   std::vector<DrawnScenes> all{assessment.scenes, assessment.validation};
   if (scatter.asked()) {
     all.insert(all.end(), {{scatter.draws, scatter.seed}, {scatter.predicted_from, scatter.predicted_seed}, {scatter.fresh, scatter.fresh_seed}});
@@ -153,7 +154,7 @@ void check_optimise(StudyReading& reading) {
   const Match* variables = reading.find("optimise.variables");
   const bool has_entry = variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
   if (!has_entry) reading.refuse_key("optimise.variables", "task \"optimise\" needs at least one variable");
-  if (!study.optimise.constraints.empty() && !accepts_constraints(study.optimise.solver.name)) {
+  if (!study.table<OptimiseTable>().constraints.empty() && !accepts_constraints(study.table<OptimiseTable>().solver.name)) {
     reading.refuse_key("optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
   }
   const bool is_elastic = study.fidelity.compliance != ComplianceModel::Rigid;
@@ -161,12 +162,13 @@ void check_optimise(StudyReading& reading) {
     const std::string what = minimises_root_stress(study) ? "root stress is asked for and needs" : "task \"optimise\" needs";
     reading.refuse_key("fidelity.compliance", what + " an elastic compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
-  const bool smooth = uses_gradients(study.optimise.solver.name) && accepts_constraints(study.optimise.solver.name);  // the epigraph is
-  if (!study.optimise.pareto_objectives.empty() && !smooth) {
+  const bool smooth =
+      uses_gradients(study.table<OptimiseTable>().solver.name) && accepts_constraints(study.table<OptimiseTable>().solver.name);  // the epigraph is
+  if (!study.table<OptimiseTable>().pareto_objectives.empty() && !smooth) {
     reading.refuse_key("optimise.solver",
                        "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
   }
-  if (study.optimise.later_objectives.size() > 0 && !accepts_constraints(study.optimise.solver.name)) {
+  if (study.table<OptimiseTable>().later_objectives.size() > 0 && !accepts_constraints(study.table<OptimiseTable>().solver.name)) {
     reading.refuse_key("optimise.solver",
                        "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
   }

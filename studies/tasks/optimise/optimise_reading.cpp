@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "studies/study_file/study_items.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 /// Reads what [optimise] says: objectives, variables, ties and constraints.
 namespace flankwright::studies {
@@ -59,12 +60,12 @@ std::vector<ObjectiveTerm> read_terms(StudyReading& reading, const SchemaKey& ke
 
 std::vector<Objective> read_objectives(StudyReading& reading, const SchemaKey& key, const toml::array& list, const Position& at) {
   std::vector<Objective> objectives;
-  for (const toml::node& node : list) objectives.push_back({read_terms(reading, key, node, at), reading.builder.study.optimise.over});
+  for (const toml::node& node : list) objectives.push_back({read_terms(reading, key, node, at), reading.builder.study.table<OptimiseTable>().over});
   return objectives;
 }
 
 void read_objective(StudyReading& reading, const SchemaKey& key, const toml::node& node, const Position& at) {
-  OptimiseTable& optimise = reading.builder.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const toml::array* list = node.as_array();
   if (list == nullptr) {
     optimise.objective = read_terms(reading, key, node, at);
@@ -140,7 +141,7 @@ void read_variable(StudyReading& reading, const Item& item) {
   if (variable.lower >= variable.upper) {
     return reading.refuse(item.position, shown, item.node, "allowed is [low, high] with low below high");
   }
-  if (key->quantity == Quantity::Deviation) variable.step = reading.builder.study.optimise.step;
+  if (key->quantity == Quantity::Deviation) variable.step = reading.builder.study.table<OptimiseTable>().step;
   if (const toml::node* step = table == nullptr ? nullptr : table->get("step")) {
     const SchemaKey rule{.quantity = key->quantity, .range = {.low = 0.0, .low_open = true}};
     const auto* word = step->as_string();
@@ -149,7 +150,7 @@ void read_variable(StudyReading& reading, const Item& item) {
   if (variable.step > variable.upper - variable.lower) {
     return reading.refuse(item.position, shown, item.node, "the step leaves nothing to choose: allowed is one within the range");
   }
-  reading.builder.study.optimise.variables.push_back(variable);
+  reading.builder.study.table<OptimiseTable>().variables.push_back(variable);
 }
 
 /// Value of a tie at one end of its variable; beyond its key's range it becomes a problem.
@@ -163,7 +164,7 @@ void check_linked_value(StudyReading& reading, const Item& item, const std::stri
 void read_link(StudyReading& reading, const Item& item) {
   const std::string shown = "optimise.ties." + item.name;
   const std::string allowed = "allowed is { as = \"pinion.modification.lead_crowning\", factor = 1, offset = 0 }";
-  OptimiseTable& optimise = reading.builder.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const SchemaKey* key = modification_key(reading, item.name, item.position, shown, item.node);
   if (key == nullptr) return;
   const toml::table* table = item.node->as_table();
@@ -252,8 +253,8 @@ void read_modification_constraint(StudyReading& reading, const Item& item, const
                           "allowed is an output, or a sum such as \"2 * pinion.modification.lead_crowning - "
                           "wheel.modification.lead_crowning\" with spaces around the signs");
   }
-  const auto& variables = reading.builder.study.optimise.variables;
-  const auto& links = reading.builder.study.optimise.links;
+  const auto& variables = reading.builder.study.table<OptimiseTable>().variables;
+  const auto& links = reading.builder.study.table<OptimiseTable>().links;
   const bool varies = std::ranges::any_of(constraint.terms, [&](const ModificationConstraint::Term& term) {
     const auto is = [&](const DesignVariable& v) { return v.member == term.member && v.parameter == term.parameter; };
     return std::ranges::any_of(variables, is) || std::ranges::any_of(links, is, &LinkingConstraint::linked);
@@ -263,7 +264,7 @@ void read_modification_constraint(StudyReading& reading, const Item& item, const
   if (const auto bound = read_bound(reading, item, shown, "max", rule)) constraint.maximum = *bound;
   if (const auto bound = read_bound(reading, item, shown, "min", rule)) constraint.minimum = *bound;
   if (constraint.minimum > constraint.maximum) return reading.refuse(item.position, shown, item.node, "allowed is min at most max");
-  reading.builder.study.optimise.modification_constraints.push_back(constraint);
+  reading.builder.study.table<OptimiseTable>().modification_constraints.push_back(constraint);
 }
 
 void read_constraint(StudyReading& reading, const Item& item) {
@@ -277,7 +278,7 @@ void read_constraint(StudyReading& reading, const Item& item) {
   if (!has_only(reading, item, shown, {"max", "min"}, allowed)) return;
   if (is_sum) return read_modification_constraint(reading, item, shown);
   const SchemaKey limit{.quantity = output->quantity, .range = {.low = 0.0, .low_open = true}};
-  std::vector<OutputConstraint>& constraints = reading.builder.study.optimise.constraints;
+  std::vector<OutputConstraint>& constraints = reading.builder.study.table<OptimiseTable>().constraints;
   const auto maximum = read_bound(reading, item, shown, "max", limit), minimum = read_bound(reading, item, shown, "min", limit);
   if (maximum && minimum && *minimum > *maximum) return reading.refuse(item.position, shown, item.node, "allowed is min at most max");
   if (maximum) constraints.push_back({.output = output->term, .maximum = *maximum});
@@ -301,7 +302,7 @@ bool is_variable(const toml::node& node) { return !node.is_table() || node.as_ta
 }  // namespace
 
 void read_optimise(StudyReading& reading) {
-  OptimiseTable& optimise = reading.builder.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const SchemaKey& objective = *study_keys().at("optimise.objective");
   if (const Match* match = reading.find(objective.path)) {
     read_objective(reading, objective, *match->node, match->position);

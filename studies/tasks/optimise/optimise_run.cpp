@@ -21,6 +21,7 @@
 #include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/tasks/optimise/scatter.hpp"
 #include "studies/tasks/optimise/unmet_constraints.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -34,13 +35,13 @@ class OptimiseRun {
     const Study& study = results_.study;
     run_.set_phases();
     found_.task = design_task();
-    SolverOptions options = study.optimise.solver;
-    const std::string unit = study.optimise.objective.size() == 1 ? study.optimise.objective.front().unit() : "";
+    SolverOptions options = study.table<OptimiseTable>().solver;
+    const std::string unit = study.table<OptimiseTable>().objective.size() == 1 ? study.table<OptimiseTable>().objective.front().unit() : "";
     options.progress = [&](int analyses, double best) {
       run_.report("optimising", analyses, 0, std::isnan(best) ? "none within the limits so far" : fmt::format("best so far {:.5g} {}", best, unit));
     };
     DesignProblem problem(found_.task);
-    const DesignOptions choice{options, study.optimise.starts};
+    const DesignOptions choice{options, study.table<OptimiseTable>().starts};
     announce_violations_of_start(problem);
     DesignOptions exact = choice;
     exact.to_grind = false;
@@ -55,20 +56,20 @@ class OptimiseRun {
           problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, found);
     found_.design = found.design;
     found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
-    if (!study.optimise.pareto_objectives.empty()) {
-      found_.front = trace_front(problem, study.optimise.pareto_objectives, study.optimise.pareto_points, choice);
+    if (!study.table<OptimiseTable>().pareto_objectives.empty()) {
+      found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice);
     }
     const DesignResult& design = found_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
     Assessment assessment = assess_optimum(study, problem, found_.task, design, run_.progress());
-    if (study.optimise.scatter.asked()) {
+    if (study.table<OptimiseTable>().scatter.asked()) {
       assessment.is_of = AssessedDesign::WithoutScatter;
       choose_over_draws(problem);
     }
     // It tries the design that is shown, which scatter may have chosen.
-    const std::vector<DesignScene> drawn = run_.loaded(draw_scenes(study, study.optimise.assessment.validation));
+    const std::vector<DesignScene> drawn = run_.loaded(draw_scenes(study, study.table<OptimiseTable>().assessment.validation));
     if (!drawn.empty()) {
-      run_.report("validating", 0, 1, fmt::format("{} draws", study.optimise.assessment.validation.samples));
+      run_.report("validating", 0, 1, fmt::format("{} draws", study.table<OptimiseTable>().assessment.validation.samples));
       assessment.validation = validate(study, found_.task, design, drawn, best_of(assessment.rules));
       assessment.seconds += assessment.validation->seconds;
     }
@@ -81,7 +82,7 @@ class OptimiseRun {
     run_.rate_life();
     show_what_is_resolved(problem, first);
     if (found_.assessment.relaxation) state_shown_excess();
-    add_unmet_by_design(problem, results_.study.optimise, found_.design, results_.requirements);
+    add_unmet_by_design(problem, results_.study.table<OptimiseTable>(), found_.design, results_.requirements);
     if (found_.scatter) add_unmet_over_draws();
   }
 
@@ -111,7 +112,7 @@ class OptimiseRun {
 
   /// Said before the search, which may take long and find that the constraints cannot be kept.
   void announce_violations_of_start(const DesignProblem& problem) const {
-    const OptimiseTable& asked = results_.study.optimise;
+    const OptimiseTable& asked = results_.study.table<OptimiseTable>();
     if (asked.constraints.empty() && asked.modification_constraints.empty()) return;
     const DesignAnalysis start = problem.analyse_given();
     if (!std::ranges::all_of(start.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return;
@@ -124,7 +125,7 @@ class OptimiseRun {
   std::vector<DesignScene> all_scenes() const {
     std::vector<DesignScene> scenes = run_.loaded_scenes();
     const int spectra = static_cast<int>(results_.study.scenes.size());
-    for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.optimise.assessment.scenes))) {
+    for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.table<OptimiseTable>().assessment.scenes))) {
       if (scene.spectrum >= 0) scene.spectrum += spectra;
       scene.draw = -1;  // here each of its load cases is a scene like those listed
       scenes.push_back(std::move(scene));
@@ -145,16 +146,16 @@ class OptimiseRun {
     task.shafts = results_.shafts;
     task.meshes = run_.mesh_store();
     task.modification = analysed_modification(study, results_.effects);
-    task.variables = study.optimise.variables;
-    task.objective = study.optimise.objective;
-    task.over = study.optimise.over;
-    task.within_draw = study.optimise.over;
-    task.constraints = study.optimise.constraints;
-    task.links = study.optimise.links;
-    task.modification_constraints = study.optimise.modification_constraints;
-    task.grindable = study.optimise.grindable;
-    task.later_objectives = study.optimise.later_objectives;
-    task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
+    task.variables = study.table<OptimiseTable>().variables;
+    task.objective = study.table<OptimiseTable>().objective;
+    task.over = study.table<OptimiseTable>().over;
+    task.within_draw = study.table<OptimiseTable>().over;
+    task.constraints = study.table<OptimiseTable>().constraints;
+    task.links = study.table<OptimiseTable>().links;
+    task.modification_constraints = study.table<OptimiseTable>().modification_constraints;
+    task.grindable = study.table<OptimiseTable>().grindable;
+    task.later_objectives = study.table<OptimiseTable>().later_objectives;
+    task.lexicographic_tolerance = study.table<OptimiseTable>().lexicographic_tolerance;
     if (asks_for_root_stress(study)) task.root_stress = run_.structures().root_stress;
     task.life = life_model(study);
     task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by

@@ -1,5 +1,9 @@
 #include "studies/tasks/optimise/optimise_task.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "studies/analysis/study_effects.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/optimise_checks.hpp"
@@ -19,6 +23,7 @@
 #include "studies/tasks/optimise/scatter_json.hpp"
 #include "studies/tasks/optimise/scatter_keys.hpp"
 #include "studies/tasks/optimise/scatter_reading.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -46,25 +51,40 @@ void read_optimise_tables(StudyReading& reading) {
 std::vector<FlankCondition> optimise_conditions(const Study& study) {
   std::vector<FlankCondition> all = conditions_of(study);
   for (FlankCondition& condition : all) {
-    for (const DesignVariable& v : study.optimise.variables) {
+    for (const DesignVariable& v : study.table<OptimiseTable>().variables) {
       const bool least = of_process(v.parameter) != nullptr || v.upper == 0.0;
       set(condition.modification[v.member], v.parameter, least ? v.lower : v.upper);
     }
   }
-  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.assessment.tolerances.empty() ? 0 : 4}))
-    all.push_back(condition_of(study, scene));
+  for (const Scene& scene : draw_scenes(study, {.samples = study.tolerances.empty() ? 0 : 4})) all.push_back(condition_of(study, scene));
   return all;
+}
+
+std::vector<DesignVariable> varied_modifications(const Study& study) {
+  const OptimiseTable& asked = study.table<OptimiseTable>();
+  std::vector<DesignVariable> all = asked.variables;
+  for (const LinkingConstraint& link : asked.links) all.push_back(link.linked);
+  return all;
+}
+
+/// A quantile, or the mean beyond one, of fewer draws than one in which a single one lies beyond it.
+void note_few_draws(const Study& study, std::vector<std::string>& notes) {
+  const ScatterTable& scatter = study.table<OptimiseTable>().scatter;
+  const bool has_tail = scatter.statistic == Aggregate::Quantile || scatter.statistic == Aggregate::Cvar;
+  if (!scatter.asked() || !has_tail || scatter.draws * (1.0 - scatter.statistic.level) >= 1.0) return;
+  notes.push_back(fmt::format("the {:g} % quantile over {} draws is the largest of them: it takes {:.0f} for one to lie beyond it",
+                              100.0 * scatter.statistic.level, scatter.draws, std::ceil(1.0 / (1.0 - scatter.statistic.level) - 1e-9)));
 }
 
 void add_optimise_json(const StudyResults& results, Json& json) {
   const OptimiseResults& found = optimised(results);
   json["optimise"] = optimise_json(results);
-  const bool has_limits = results.study.optimise.largest_amount || results.study.optimise.steepest_relief;
+  const bool has_limits = results.study.table<OptimiseTable>().largest_amount || results.study.table<OptimiseTable>().steepest_relief;
   if (has_limits) json["optimise"]["grinding_limits"] = grinding_limits_json(found.task, found.design.after);
   if (found.task.grindable.any())
     json["optimise"]["grinding_choices"] = grinding_choices_json(found.design, found.task, statistic_of_choices(results));
   if (found.scatter) json["optimise"]["scatter"] = scatter_json(*found.scatter, found.task, results.study);
-  add_assessment(found.assessment, found.task, results.study.optimise.assessment, json["optimise"]);
+  add_assessment(found.assessment, found.task, results.study, json["optimise"]);
 }
 
 void write_store(const StudyResults& results, const std::filesystem::path& folder) { write_results_store(folder / "results.sqlite", results); }
@@ -78,6 +98,8 @@ const Task optimise_task{.name = "optimise",
                          .check = check_optimise,
                          .conditions = optimise_conditions,
                          .asks_for_root_stress = minimises_root_stress,
+                         .varied = varied_modifications,
+                         .add_notes = note_few_draws,
                          .run = run_optimise,
                          .write_files = write_store,
                          .add_json = add_optimise_json,

@@ -8,6 +8,7 @@
 #include "optimize/design/draws.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/scatter_reading.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -50,13 +51,13 @@ double statistic_of(const std::vector<double>& measures, const Aggregation& stat
 class ScatterRun {
  public:
   ScatterRun(const Study& study, const DesignTask& task, const LoadCases& load_cases, const ProgressReport& progress)
-      : study_(study), asked_(study.optimise.scatter), task_(task), load_cases_(load_cases), progress_(progress) {}
+      : study_(study), asked_(study.table<OptimiseTable>().scatter), task_(task), load_cases_(load_cases), progress_(progress) {}
 
   ScatterResult run(const DesignResult& found) {
     ScatterResult result;
     result.search_seconds = found.seconds;
     result.without = found.after.variables;
-    const std::vector<SceneTolerance>& tolerances = study_.optimise.assessment.tolerances;
+    const std::vector<SceneTolerance>& tolerances = study_.tolerances;
     report("searching over " + std::to_string(asked_.draws) + " draws");
     const DesignTask over = over_draws(task_, draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_), asked_.statistic);
     for (const std::vector<int>& load_cases : draws_of(over.scenes, over.combined_objective().over_spectrum())) {
@@ -64,7 +65,7 @@ class ScatterRun {
       for (const int s : load_cases) listed.load_cases.push_back(over.scenes[static_cast<std::size_t>(s)]);
     }
     result.states = operating_states(study_, tolerances);
-    result.design = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.optimise.solver);
+    result.design = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.table<OptimiseTable>().solver);
     predict(result);
     result.without_value = statistic_over(over, found.after.analysis.modification);
     try_afresh(found, result);
@@ -86,7 +87,7 @@ class ScatterRun {
   void predict(ScatterResult& result) const {
     if (asked_.predicted_from == 0 || result.design.status == SolverStatus::Failed) return;
     report("predicting from " + std::to_string(asked_.predicted_from) + " further draws");
-    const auto scenes = draw(study_, study_.optimise.assessment.tolerances, asked_.predicted_from, asked_.predicted_seed, load_cases_);
+    const auto scenes = draw(study_, study_.tolerances, asked_.predicted_from, asked_.predicted_seed, load_cases_);
     result.predicted = predict_statistic(over_draws(task_, scenes, asked_.statistic), result.design.modification);
   }
 
@@ -94,7 +95,7 @@ class ScatterRun {
     if (asked_.fresh == 0) return;
     const Stopwatch clock;
     report("trying the designs on " + std::to_string(asked_.fresh) + " fresh draws");
-    const auto scenes = draw(study_, study_.optimise.assessment.tolerances, asked_.fresh, asked_.fresh_seed, load_cases_);
+    const auto scenes = draw(study_, study_.tolerances, asked_.fresh, asked_.fresh_seed, load_cases_);
     const std::vector<NamedDesign> designs{{"before", "", found.before.analysis.modification},
                                            {"without scatter", "", found.after.analysis.modification},
                                            {"after", "", result.design.modification}};
@@ -108,8 +109,8 @@ class ScatterRun {
   /// The search of a class begins where the study's own does, and again at the design that the study's own found; the better of both is the design of the class.
   /// So a class has the same design whatever the others of the list are, and the study's own class has that of the study.
   ScatterDesign search_class(const DesignTask& over, const DesignResult& found, const ScatterResult& result) const {
-    ScatterDesign first = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.optimise.solver);
-    ScatterDesign second = search_over_draws(over, unscaled(result.design, task_), study_.optimise.solver);
+    ScatterDesign first = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.table<OptimiseTable>().solver);
+    ScatterDesign second = search_over_draws(over, unscaled(result.design, task_), study_.table<OptimiseTable>().solver);
     return is_better(second, first) ? second : first;
   }
 
@@ -117,8 +118,8 @@ class ScatterRun {
     const Stopwatch clock;
     for (const int tolerance_class : asked_.classes) {
       report("searching the right design of class " + std::to_string(tolerance_class));
-      const bool is_own = asked_.iso_1328_class == tolerance_class;
-      const auto tolerances = with_class(study_.optimise.assessment.tolerances, task_.pair, tolerance_class);
+      const bool is_own = study_.tolerance_class == tolerance_class;
+      const auto tolerances = with_class(study_.tolerances, task_.pair, tolerance_class);
       const DesignTask over = over_draws(task_, draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_), asked_.statistic);
       ClassDesign priced{.tolerance_class = tolerance_class, .design = is_own ? result.design : search_class(over, found, result)};
       priced.without_scatter = is_own ? result.without_value : statistic_over(over, found.after.analysis.modification);

@@ -8,6 +8,7 @@
 
 #include "studies/base/plain_names.hpp"
 #include "studies/tasks/optimise/assessment_json.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -66,11 +67,11 @@ std::string statistic_in_words(const Aggregation& statistic) {
 }
 
 std::string statistic_of_choices(const StudyResults& results) {
-  return optimised(results).scatter ? statistic_in_words(results.study.optimise.scatter.statistic) : "";
+  return optimised(results).scatter ? statistic_in_words(results.study.table<OptimiseTable>().scatter.statistic) : "";
 }
 
 Json scatter_json(const ScatterResult& result, const DesignTask& task, const Study& study) {
-  const ScatterTable& asked = study.optimise.scatter;
+  const ScatterTable& asked = study.table<OptimiseTable>().scatter;
   Json json{{"statistic", to_string(asked.statistic)},
             {"statistic_in_words", statistic_in_words(asked.statistic)},
             {"objective_name", task.objective_name()},
@@ -80,8 +81,8 @@ Json scatter_json(const ScatterResult& result, const DesignTask& task, const Stu
             {"states", list(result.states, [](const OperatingState& state) -> Json { return state.scene.name; })},
             {"load_cases_of_a_draw", result.draws.front().load_cases.size()},
             {"within_draw", to_string(task.within_draw)},
-            {"tolerances", list(study.optimise.assessment.tolerances, tolerance_json)}};
-  if (asked.iso_1328_class) json["iso_1328_class"] = *asked.iso_1328_class;
+            {"tolerances", list(study.tolerances, tolerance_json)}};
+  if (study.tolerance_class) json["iso_1328_class"] = *study.tolerance_class;
   json.update(search_json(result.design, task));
   json["without_scatter"] = {{"variables", variables_of(result.without, task)}, {"value", result.without_value}, {"seconds", result.search_seconds}};
   if (!std::isnan(result.predicted.value)) {
@@ -158,7 +159,7 @@ std::vector<NamedText> scatter_tables(const ScatterResult& result, const DesignT
 }
 
 std::string scatter_summary(const ScatterResult& result, const DesignTask& task, const Study& study) {
-  const ScatterTable& asked = study.optimise.scatter;
+  const ScatterTable& asked = study.table<OptimiseTable>().scatter;
   const std::string statistic = statistic_in_words(asked.statistic), unit = task.objective_unit();
   std::string out = fmt::format("\n{} over {} draws{}: {:.5g} {} without scatter in the search, {:.5g} {} with it ({:+.1f} %); {} in {:.1f} s\n",
                                 statistic, asked.draws, load_cases_in_words(study), result.without_value, unit, result.design.value, unit,

@@ -1,12 +1,13 @@
 #include "studies/tasks/optimise/scatter_keys.hpp"
 
 #include "studies/study_file/key_rows.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
 namespace {
 
-ScatterTable& scatter(StudyBuilder& builder) { return builder.study.optimise.scatter; }
+ScatterTable& scatter(StudyBuilder& builder) { return builder.study.table<OptimiseTable>().scatter; }
 
 void store_statistic(StudyBuilder& builder, Aggregate kind, double value) {
   Aggregation& statistic = scatter(builder).statistic;
@@ -39,7 +40,7 @@ std::vector<SchemaKey> scatter_keys() {
        .store = [](StudyBuilder& d, Member, const Value& v) { store_statistic(d, Aggregate::MeanPlusSigmas, v.number); }},
       {.path = "optimise.scatter.iso_1328_class", .kind = Integer, .range = {.low = 1, .high = 11}, .fallback = "(none)",
        .meaning = "tolerance class of both gears: slopes, pitch, and form as crowning; what optimise.tolerances has of it stays as it is there",
-       .store = [](StudyBuilder& d, Member, const Value& v) { scatter(d).iso_1328_class = static_cast<int>(v.integer); }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.tolerance_class = static_cast<int>(v.integer); }},
       {.path = "optimise.scatter.classes", .kind = NumberList, .range = {.low = 1, .high = 11}, .fallback = "(none)",
        .meaning = "classes for each of which the right design is sought, to show what a class costs",
        .store = [](StudyBuilder& d, Member, const Value& v) { for (const double c : v.numbers) scatter(d).classes.push_back(static_cast<int>(c)); }},

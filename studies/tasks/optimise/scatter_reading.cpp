@@ -9,6 +9,7 @@
 
 #include "core/gear/flank_tolerances.hpp"
 #include "optimize/sampling/sobol_sequence.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -59,14 +60,14 @@ void check_classes(StudyReading& reading) {
   const std::string path = std::string(scatter_name) + ".classes";
   const auto* match = reading.find(path);
   if (match == nullptr || !match->node->is_array()) return;
-  const std::vector<int>& classes = reading.builder.study.optimise.scatter.classes;
+  const std::vector<int>& classes = reading.builder.study.table<OptimiseTable>().scatter.classes;
   const bool repeats = std::set<int>(classes.begin(), classes.end()).size() < classes.size();
   const bool has_parts = std::ranges::any_of(*match->node->as_array(), [](const toml::node& entry) { return !entry.is_integer(); });
   if (repeats || has_parts) reading.refuse_key(path, "allowed are integers 1 .. 11, each once");
 }
 
 void check_task(StudyReading& reading) {
-  const OptimiseTable& optimise = reading.builder.study.optimise;
+  const OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const auto refuse = [&](const std::string& path, const char* allowed) { reading.refuse_key(path, allowed); };
   if (!optimise.later_objectives.empty()) refuse("optimise.objective", "one objective with optimise.scatter, no list");
   if (!optimise.pareto_objectives.empty()) refuse("optimise.pareto.objectives", "none with optimise.scatter");
@@ -113,8 +114,8 @@ std::vector<SceneTolerance> with_class(const std::vector<SceneTolerance>& tolera
 }
 
 void read_scatter(StudyReading& reading) {
-  OptimiseTable& optimise = reading.builder.study.optimise;
-  ScatterTable& scatter = optimise.scatter;
+  Study& study = reading.builder.study;
+  const ScatterTable& scatter = study.table<OptimiseTable>().scatter;
   check_statistic(reading);
   if (!scatter.asked()) {
     const auto refuse_without_draws = [&](const char* key) {
@@ -127,23 +128,23 @@ void read_scatter(StudyReading& reading) {
     return;
   }
   check_task(reading);
-  const PairData& data = reading.builder.study.pair;
+  const PairData& data = study.pair;
   if (!reading.problems.empty() || !find_problems(data).empty()) return;
   const GearPair pair = make_gear_pair(data);
   std::vector<int> classes = scatter.classes;
-  if (scatter.iso_1328_class) classes.insert(classes.begin(), *scatter.iso_1328_class);
+  if (study.tolerance_class) classes.insert(classes.begin(), *study.tolerance_class);
   try {
     for (const int c : classes) class_tolerances(pair, c);
-    if (scatter.iso_1328_class) optimise.assessment.tolerances = with_class(optimise.assessment.tolerances, pair, *scatter.iso_1328_class);
+    if (study.tolerance_class) study.tolerances = with_class(study.tolerances, pair, *study.tolerance_class);
   } catch (const InvalidInput& problem) {
     return reading.refuse_key("optimise.scatter.iso_1328_class",
                               "a gear that ISO 1328-1 covers: " + problem.field() + " is " + problem.value() + ", covered is " + problem.allowed());
   }
-  if (optimise.assessment.tolerances.empty()) {
+  if (study.tolerances.empty()) {
     reading.refuse_key("optimise.scatter.draws", "set optimise.tolerances or optimise.scatter.iso_1328_class: the draws are made from them");
   }
   constexpr int of_class = 10;  // coordinates that a class adds at most
-  if (static_cast<int>(optimise.assessment.tolerances.size()) + (scatter.classes.empty() ? 0 : of_class) > sobol_dimensions) {
+  if (static_cast<int>(study.tolerances.size()) + (scatter.classes.empty() ? 0 : of_class) > sobol_dimensions) {
     reading.refuse_key(scatter_name, "at most " + std::to_string(sobol_dimensions) + " quantities that scatter");
   }
 }

@@ -13,6 +13,7 @@
 #include "core/base/stopwatch.hpp"
 #include "studies/tasks/sweep/sweep_statistics.hpp"
 #include "studies/tasks/sweep/sweep_tables.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -97,7 +98,7 @@ void run_sweep(StudyResults& nominal, const std::filesystem::path& folder, const
   const Stopwatch clock;
   const Study& study = nominal.study;
   const SampleAnalysis analysis(nominal);
-  const SweepDesign design(study.sweep);
+  const SweepDesign design(study.table<SweepTable>());
   SweepStore store(folder.empty() ? ":memory:" : folder / "results.sqlite", study, analysis.outputs());
   run_samples(store, design, analysis, {}, progress);
   auto statistics = std::make_shared<SweepStatistics>(sweep_statistics(store, design, analysis.outputs()));
@@ -115,7 +116,7 @@ void run_sweep(StudyResults& nominal, const std::filesystem::path& folder, const
 void run_sweep_shard(const StudyResults& nominal, const std::filesystem::path& file, Shard shard, const ProgressReport& progress) {
   const SampleAnalysis analysis(nominal);
   SweepStore store(file, nominal.study, analysis.outputs(), shard);
-  run_samples(store, SweepDesign(nominal.study.sweep), analysis, shard, progress);
+  run_samples(store, SweepDesign(nominal.study.table<SweepTable>()), analysis, shard, progress);
 }
 
 }  // namespace flankwright::studies

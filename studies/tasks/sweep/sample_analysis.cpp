@@ -8,6 +8,7 @@
 #include "studies/analysis/case_life.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/study_file/study_life.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -79,7 +80,7 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
   const Study& study = nominal_.study;
   try {
     SweptCondition swept = SweptCondition::of(study);
-    for (std::size_t j = 0; j < values.size(); ++j) set_swept(swept, study.sweep.parameters[j], values[j]);
+    for (std::size_t j = 0; j < values.size(); ++j) set_swept(swept, study.table<SweepTable>().parameters[j], values[j]);
     const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
     return {"", is_loaded() ? loaded_outputs(condition, swept.scene) : unloaded_outputs(condition)};
   } catch (const InvalidInput& problem) {

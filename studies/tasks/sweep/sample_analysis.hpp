@@ -7,7 +7,7 @@
 #include "studies/analysis/position_memory.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/study_file/study_schema.hpp"
-#include "studies/study_file/sweep_value.hpp"
+#include "studies/tasks/sweep/sweep_design.hpp"
 
 namespace flankwright::studies {
 

@@ -1,4 +1,5 @@
 #include "studies/tasks/sweep/shards.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 #include <fmt/format.h>
 
@@ -86,7 +87,7 @@ void merge_shards(const fs::path& folder, const Study& study, const std::vector<
   for (const auto& [index, file] : shards) {
     const Shard shard{index, count};
     SweepStore store(file, study, outputs, shard);
-    if (store.count(study.sweep.samples) != shard.share_of(study.sweep.samples)) unfinished.push_back(index + 1);
+    if (store.count(study.table<SweepTable>().samples) != shard.share_of(study.table<SweepTable>().samples)) unfinished.push_back(index + 1);
   }
   if (!lost.empty()) complaints.add(fmt::format("lost of {}: {}", count, enumerated(lost)));
   if (!unfinished.empty()) complaints.add(fmt::format("unfinished of {}: {}", count, enumerated(unfinished)));
@@ -98,7 +99,7 @@ void merge_shards(const fs::path& folder, const Study& study, const std::vector<
   SweepStore whole(folder / "results.sqlite", study, outputs);
   for (const auto& [index, file] : shards) {
     SweepStore store(file, study, outputs, {index, count});
-    store.for_each(study.sweep.samples, [&](const StoredSample& sample) {
+    store.for_each(study.table<SweepTable>().samples, [&](const StoredSample& sample) {
       if (!whole.present(sample.id, sample.id + 1).front()) whole.add(sample);
     });
     whole.commit(store.seconds());

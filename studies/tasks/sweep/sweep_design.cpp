@@ -30,4 +30,25 @@ std::vector<double> SweepDesign::values(long long i) const {
   return values;
 }
 
+void set_swept(SweptCondition& condition, const SweepParameter& parameter, double value) {
+  const SchemaKey& key = *study_keys().at(parameter.path);
+  if (!parameter.pitch) return set_swept(condition, key, value);
+  set_drawn_pitch(condition.scene.error[key.member], *parameter.pitch, value);
+}
+
+std::vector<SweptCondition> extreme_conditions(const Study& study) {
+  constexpr double outer_share = 1e-6;  // beyond either end
+  std::vector<SweptCondition> conditions;
+  for (const SweepParameter& p : study.table<SweepTable>().parameters) {
+    const SchemaKey& key = *study_keys().at(p.path);
+    for (const double u : {outer_share, 1.0 - outer_share}) {
+      const double value = p.distribution.quantile(u);
+      if (!p.pitch && !is_in_range(key, value)) continue;
+      conditions.push_back(SweptCondition::of(study));
+      set_swept(conditions.back(), p, value);
+    }
+  }
+  return conditions;
+}
+
 }  // namespace flankwright::studies

@@ -3,7 +3,8 @@
 #include <variant>
 
 #include "optimize/sampling/sensitivity_design.hpp"
-#include "studies/study/sweep_table.hpp"
+#include "studies/study_file/sweep_value.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -28,5 +29,14 @@ class SweepDesign {
   std::variant<SampleDesign, SensitivityDesign> design_;
   long long samples_;
 };
+
+/// Puts a parameter's value, in the unit of a bare number, in its place; of a pitch by tolerance class the deviations of every tooth, drawn by the
+/// whole part of the value.
+/// @throws InvalidInput where it is out of the key's range
+void set_swept(SweptCondition& condition, const SweepParameter& parameter, double value);
+
+/// What the parameters do at the low and at the high end of their distributions, one by one; what is out of range there is left out. For decisions
+/// that must hold for every sample.
+std::vector<SweptCondition> extreme_conditions(const Study& study);
 
 }  // namespace flankwright::studies

@@ -4,6 +4,7 @@
 
 #include "studies/tasks/sweep/sweep_statistics.hpp"
 #include "studies/tasks/sweep/sweep_tables.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -17,7 +18,7 @@ Json index_json(const SobolIndex& index) {
 Json worst_json(const StudyResults& results, const OutputStatistics& of, const StoredSample& sample) {
   if (of.worst < 0) return nullptr;
   Json parameters = Json::object();
-  for (std::size_t j = 0; j < sample.values.size(); ++j) parameters[results.study.sweep.parameters[j].path] = sample.values[j];
+  for (std::size_t j = 0; j < sample.values.size(); ++j) parameters[results.study.table<SweepTable>().parameters[j].path] = sample.values[j];
   return {{"sample", of.worst},
           {"value", of.output.smaller_is_worse ? of.smallest : of.largest},
           {"parameters", parameters},
@@ -38,7 +39,7 @@ Json output_json(const StudyResults& results, const OutputStatistics& of, const 
             {"histogram", {{"low", of.histogram.low}, {"high", of.histogram.high}, {"counts", of.histogram.counts}}}};
   if (!of.indices.empty()) {
     Json& indices = json["indices"] = Json::object();
-    for (std::size_t j = 0; j < of.indices.size(); ++j) indices[results.study.sweep.parameters[j].path] = index_json(of.indices[j]);
+    for (std::size_t j = 0; j < of.indices.size(); ++j) indices[results.study.table<SweepTable>().parameters[j].path] = index_json(of.indices[j]);
   }
   return json;
 }
@@ -66,7 +67,7 @@ Json map_json(const SweepStatistics& statistics, const std::vector<SweepParamete
 
 Json sweep_json(const StudyResults& results) {
   const SweepStatistics& statistics = *results.found<SweepStatistics>();
-  const SweepTable& sweep = results.study.sweep;
+  const SweepTable& sweep = results.study.table<SweepTable>();
   Json parameters = Json::array(), outputs = Json::object();
   for (std::size_t j = 0; j < sweep.parameters.size(); ++j) {
     const SweepParameter& p = sweep.parameters[j];

@@ -6,7 +6,8 @@
 #include "optimize/sampling/sobol_sequence.hpp"
 #include "studies/study_file/study_items.hpp"
 #include "studies/study_file/distribution_reading.hpp"
-#include "studies/study_file/sweep_value.hpp"
+#include "studies/tasks/sweep/sweep_design.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -42,7 +43,7 @@ std::vector<const SchemaKey*> keys_of(StudyReading& reading, const Item& item) {
 }
 
 void read_parameter(StudyReading& reading, const Item& item, const GearPair* pair) {
-  std::vector<SweepParameter>& parameters = reading.builder.study.sweep.parameters;
+  std::vector<SweepParameter>& parameters = reading.builder.study.table<SweepTable>().parameters;
   for (const SchemaKey* key : keys_of(reading, item)) {
     const std::string shown = "sweep.parameters." + item.name;
     try {
@@ -65,7 +66,7 @@ bool is_swept(const SweepTable& sweep, const std::string& path) {
 
 /// A relief's amount needs the height or length over which it is spread.
 void check_reliefs(StudyReading& reading, const SweptCondition& nominal) {
-  const SweepTable& sweep = reading.builder.study.sweep;
+  const SweepTable& sweep = reading.builder.study.table<SweepTable>();
   for (const std::string gear : {"pinion.", "wheel."}) {
     const Modification& m = gear == "pinion." ? nominal.modification.pinion : nominal.modification.wheel;
     for (const ModificationDescriptor& amount : modification_parameters) {
@@ -78,7 +79,7 @@ void check_reliefs(StudyReading& reading, const SweptCondition& nominal) {
 }
 
 void check_design(StudyReading& reading) {
-  SweepTable& sweep = reading.builder.study.sweep;
+  SweepTable& sweep = reading.builder.study.table<SweepTable>();
   const auto count = static_cast<int>(sweep.parameters.size());
   if (sweep.sampler == Sampler::Grid) {
     sweep.indices = false;
@@ -111,7 +112,7 @@ void check_design(StudyReading& reading) {
 void set_nominal(StudyReading& reading) {
   Study& study = reading.builder.study;
   SweptCondition nominal = SweptCondition::of(study);
-  for (const SweepParameter& p : study.sweep.parameters) {
+  for (const SweepParameter& p : study.table<SweepTable>().parameters) {
     const bool has_value = reading.find(p.path) != nullptr || p.pitch;  // no gear of a class is its median: the nominal one has equal pitches
     if (!has_value) set_swept(nominal, p, p.distribution.median());
   }
@@ -134,7 +135,7 @@ void read_sweep(StudyReading& reading) {
 void check_sweep(StudyReading& reading) {
   const Study& study = reading.builder.study;
   if (!reading.problems.empty()) return;
-  if (study.sweep.parameters.empty()) return reading.refuse_key("sweep.parameters", "task \"sweep\" needs at least one parameter");
+  if (study.table<SweepTable>().parameters.empty()) return reading.refuse_key("sweep.parameters", "task \"sweep\" needs at least one parameter");
   if (reading.find("scenes") != nullptr) {
     return reading.refuse_key("scenes", "a sweep runs one working condition: vary its keys in sweep.parameters");
   }
@@ -145,7 +146,7 @@ void check_sweep(StudyReading& reading) {
                                   ", or load.torque = { values = [...] } in sweep.parameters");
   }
   for (const ExclusiveKeys& keys : exclusive_keys()) {
-    if (is_swept(study.sweep, keys.first) && is_swept(study.sweep, keys.second)) {
+    if (is_swept(study.table<SweepTable>(), keys.first) && is_swept(study.table<SweepTable>(), keys.second)) {
       return reading.refuse_key("sweep.parameters." + keys.second, "overlaps the parameter " + keys.first + "; allowed is one of them");
     }
   }

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "studies/base/results_folder.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -118,7 +119,7 @@ void check_is_sweep(Database& database) {
 std::vector<GivenValue> deciding_settings(const Study& study) {
   const auto contents_of = [](const fs::path& file) { return fmt::format("{:016x}", Fingerprint().add(read_whole(file)).value()); };
   std::map<std::string, std::string> settings{{"version", version()}};
-  const bool extends = study.sweep.sampler == Sampler::Sobol || study.sweep.sampler == Sampler::MonteCarlo;
+  const bool extends = study.table<SweepTable>().sampler == Sampler::Sobol || study.table<SweepTable>().sampler == Sampler::MonteCarlo;
   for (const GivenValue& given : study.given) {
     const bool is_free = given.key == "title" || given.key.starts_with("expect.") || (extends && given.key == "sweep.samples");
     if (!is_free) settings.emplace(given.key, given.value);
@@ -137,7 +138,7 @@ std::vector<GivenValue> deciding_settings(const Study& study) {
 }
 
 SweepStore::SweepStore(const fs::path& file, const Study& study, const std::vector<SweepOutput>& outputs, Shard shard) : database_(file) {
-  for (const SweepParameter& p : study.sweep.parameters) parameter_columns_.push_back(p.path);
+  for (const SweepParameter& p : study.table<SweepTable>().parameters) parameter_columns_.push_back(p.path);
   for (const SweepOutput& o : outputs) output_columns_.push_back(o.name);
   // The lock is taken here and kept until the file is closed; a journal that a killed run left is rolled back by this.
   database_.execute("PRAGMA locking_mode = EXCLUSIVE; PRAGMA synchronous = FULL; BEGIN EXCLUSIVE;");
@@ -179,7 +180,7 @@ void SweepStore::create(const Study& study, Shard shard) {
   Statement settings(database_, "INSERT INTO settings VALUES (?, ?)");
   for (const GivenValue& g : deciding_settings(study)) settings.row(g.key, g.value);
   Statement parameters(database_, "INSERT INTO parameters VALUES (?, ?, ?)");
-  for (const SweepParameter& p : study.sweep.parameters) parameters.row(p.path, p.unit, p.in_words);
+  for (const SweepParameter& p : study.table<SweepTable>().parameters) parameters.row(p.path, p.unit, p.in_words);
 }
 
 void SweepStore::check_same(const Study& study, Shard shard) {

@@ -10,6 +10,7 @@
 #include "studies/base/results_folder.hpp"
 #include "studies/tasks/sweep/sweep_statistics.hpp"
 #include "studies/tasks/sweep/worst_study.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -44,7 +45,7 @@ std::string indices_csv(const StudyResults& results) {
   for (const OutputStatistics& of : statistics_of(results).outputs) {
     for (std::size_t j = 0; j < of.indices.size(); ++j) {
       const SobolIndex& index = of.indices[j];
-      csv += fmt::format("{},{},{},{},{},{}\n", of.output.name, results.study.sweep.parameters[j].path, csv_field(index.first),
+      csv += fmt::format("{},{},{},{},{},{}\n", of.output.name, results.study.table<SweepTable>().parameters[j].path, csv_field(index.first),
                          csv_field(index.first_error), csv_field(index.total), csv_field(index.total_error));
     }
   }
@@ -55,11 +56,11 @@ void write_samples(const StudyResults& results, const fs::path& file, SweepStore
   const fs::path temporary = file.string() + ".tmp";
   std::ofstream csv(temporary, std::ios::binary);
   csv << "sample,failure";
-  for (const SweepParameter& p : results.study.sweep.parameters) csv << ',' << csv_field(fmt::format("{} [{}]", p.path, p.unit));
+  for (const SweepParameter& p : results.study.table<SweepTable>().parameters) csv << ',' << csv_field(fmt::format("{} [{}]", p.path, p.unit));
   for (const OutputStatistics& of : statistics_of(results).outputs) csv << ',' << of.output.name;
   csv << '\n';
   const std::string no_outputs(statistics_of(results).outputs.size(), ',');
-  store.for_each(results.study.sweep.samples, [&](const StoredSample& sample) {
+  store.for_each(results.study.table<SweepTable>().samples, [&](const StoredSample& sample) {
     csv << sample.id << ',' << csv_field(sample.result.failure);
     for (const double value : sample.values) csv << ',' << csv_field(value);
     for (const double value : sample.result.outputs) csv << ',' << csv_field(value);

@@ -8,7 +8,8 @@
 #include <sstream>
 
 #include "studies/study_file/study_document.hpp"
-#include "studies/study_file/sweep_value.hpp"
+#include "studies/tasks/sweep/sweep_design.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 
@@ -40,7 +41,7 @@ void add_grids(const Study& study, const std::string& gear, const GivenGrid& gri
 std::string sample_study(const Study& study, const std::string& title, const std::vector<double>& values) {
   std::vector<Override> overrides{{"task", "\"analyse\""}, {"title", quoted(title)}};
   for (std::size_t j = 0; j < values.size(); ++j) {
-    const SweepParameter& parameter = study.sweep.parameters[j];
+    const SweepParameter& parameter = study.table<SweepTable>().parameters[j];
     // Texts are the shortest of the same numbers.
     if (parameter.pitch) {
       overrides.push_back({parameter.path, fmt::format("[{}]", fmt::join(pitch_of_draw(*parameter.pitch, values[j]), ", "))});

@@ -138,7 +138,9 @@ TEST_CASE("Time and revolutions of a signal are conserved, whatever it does", "[
       if (i == 0) continue;
       const auto at = [&](const std::vector<double>& of, int back) { return of[of.size() - 1 - static_cast<std::size_t>(back)]; };
       const double dt = at(signal.time, 0) - at(signal.time, 1), a = at(signal.torque, 1), b = at(signal.torque, 0);
-      revolutions += dt * (std::abs(at(signal.speed, 0)) + std::abs(at(signal.speed, 1))) / (2.0 * one_turn);
+      const double from = at(signal.speed, 1), to = at(signal.speed, 0);  // where they differ in sign the pinion turns back on the way
+      const double mean_speed = from * to < 0.0 ? (from * from + to * to) / (2.0 * std::abs(from - to)) : std::abs(from + to) / 2.0;
+      revolutions += dt * mean_speed / one_turn;
       if (a < 0.0 && b < 0.0) reversed += dt;
       if ((a < 0.0) != (b < 0.0)) reversed += dt * std::min(a, b) / (std::min(a, b) - std::max(a, b));
     }
@@ -178,9 +180,25 @@ TEST_CASE("A load on gears that stand brings no load cycles", "[core][rating][li
   CHECK(totals_of(count).revolutions == Approx(11.0).epsilon(1e-12));
   const LoadCount all_standing_above = count_time_at_level({{0.0, 4.0, 4.5, 10.0}, {300.0, 300.0, 100.0, 100.0}, {0.0, 0.0, 0.0, 2.0 * one_turn}}, 2);
   REQUIRE(all_standing_above.levels.size() == 1);
-  CHECK(all_standing_above.levels.front().torque == 200.0);
-  CHECK(all_standing_above.standing_duration == Approx(4.25).epsilon(1e-12));
+  CHECK(all_standing_above.levels.front().torque == 100.0);
+  CHECK(all_standing_above.standing_duration == Approx(4.5).epsilon(1e-12));
   CHECK(totals_of(all_standing_above).duration == Approx(10.0).epsilon(1e-12));
+}
+
+TEST_CASE("The speed of a level is that of its load cycles, however long the pinion stands or creeps under its torque", "[core][rating][life]") {
+  constexpr double round_off = 1e-12, turns = 25.0, step = 1e-9;  // of the pinion in a second; of speed [s]
+  for (const double creep : {0.0, 0.01}) {
+    const LoadSignal hoist{
+        {0.0, 10.0, 10.0 + step, 100.0}, {300.0, 300.0, 300.0, 300.0}, {turns * one_turn, turns * one_turn, creep * one_turn, creep * one_turn}};
+    const LoadCount count = count_time_at_level(hoist, 5);
+    REQUIRE(count.levels.size() == 1);
+    const double fast = 10.0 * turns, slow = 90.0 * creep;  // revolutions
+    CHECK(count.levels.front().cycles == Approx(fast + slow).epsilon(step * turns));
+    CHECK(count.levels.front().speed == Approx(one_turn * (fast * turns + slow * creep) / (fast + slow)).epsilon(step * turns));
+    CHECK(count.standing_duration == Approx(creep > 0.0 ? 0.0 : 90.0).margin(2.0 * step));
+  }
+  // A speed that rises evenly from 0: two thirds of its end, by the revolutions that it makes.
+  CHECK(count_time_at_level({{0.0, 8.0}, {1.0, 1.0}, {0.0, 3.0}}, 1).levels.front().speed == Approx(2.0).epsilon(round_off));
 }
 
 TEST_CASE("Swings from 0 count with their height, smaller ones less than their top", "[core][rating][life]") {

@@ -6,6 +6,7 @@
 #include "studies/study_file/study_schema.hpp"
 #include "studies/study_file/sweep_value.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -64,8 +65,8 @@ TEST_CASE("Every modification parameter may be a design variable, in the unit of
     const Study study = parse_study("task = \"optimise\"\n" + small_study + "[load]\ntorque = 100\n[pinion.modification]\n" + beside +
                                         "[optimise.variables]\n\"" + path + "\" = [0.25, 0.7]\n",
                                     "small.toml");
-    REQUIRE(study.optimise.variables.size() == 1);
-    const DesignVariable& v = study.optimise.variables.front();
+    REQUIRE(study.table<OptimiseTable>().variables.size() == 1);
+    const DesignVariable& v = study.table<OptimiseTable>().variables.front();
     CHECK(v.path == path);
     CHECK(v.parameter == d.parameter);
     CHECK(v.upper * v.outside_factor() == Approx(0.7).epsilon(1e-14));

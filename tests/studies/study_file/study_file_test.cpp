@@ -9,6 +9,7 @@
 
 #include "core/base/units.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 
@@ -69,8 +70,8 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
   CHECK(study.fidelity.quadrature.intervals == Fidelity{}.quadrature.intervals);
   REQUIRE(study.scenes.size() == 1);
   CHECK(study.scenes.front().name == Scene{}.name);
-  CHECK(study.optimise.objective.size() == 1);
-  CHECK(std::isinf(study.optimise.solver.max_seconds));
+  CHECK(study.table<OptimiseTable>().objective.size() == 1);
+  CHECK(std::isinf(study.table<OptimiseTable>().solver.max_seconds));
   CHECK(parse_study(replaced(small_study, "title = \"Small\"\n", ""), "dir/pump.toml").title == "pump");
 }
 
@@ -165,7 +166,7 @@ wheel.modification.tip_relief.height = [0.5, 2]
 "peak_contact_stress" = { max = "1.2 GPa" }
 )",
       {{"task", "optimise"}});
-  const OptimiseTable& table = study.optimise;
+  const OptimiseTable& table = study.table<OptimiseTable>();
   CHECK(study.task == &find_task("optimise"));
   REQUIRE(table.objective.size() == 2);
   CHECK(table.objective[1].output == Output::TeHarmonic);
@@ -240,8 +241,8 @@ TEST_CASE("The command line replaces, adds and is remembered with what the file 
                                   {"scenes.0.load.torque", "120 lbf in"}});
   CHECK(study.pair.pinion.teeth == 21);
   CHECK(study.misalignment.crossing == 3 * units::arcmin);
-  REQUIRE(study.optimise.variables.size() == 1);
-  CHECK(study.optimise.variables.front().upper == Approx(0.0121).epsilon(file_round_off));
+  REQUIRE(study.table<OptimiseTable>().variables.size() == 1);
+  CHECK(study.table<OptimiseTable>().variables.front().upper == Approx(0.0121).epsilon(file_round_off));
   CHECK(study.scenes.front().torques.front() == Approx(120 * 4.4482216152605 * 25.4).epsilon(file_round_off));
 
   const auto given = [&study](const std::string& key) -> std::string {

@@ -9,6 +9,8 @@
 #include "core/base/error.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "studies/study_file/study_schema.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -29,10 +31,10 @@ TEST_CASE("Every template is a study that can be read as it is", "[studies][temp
   const Study optimise = parse_study(study_template("optimise"), "optimise.toml");
   CHECK(optimise.task == &find_task("optimise"));
   CHECK(optimise.scenes.size() == 3);
-  CHECK(optimise.optimise.variables.size() == 3);
+  CHECK(optimise.table<OptimiseTable>().variables.size() == 3);
   const Study sweep = parse_study(study_template("sweep"), "sweep.toml");
   CHECK(sweep.task == &find_task("sweep"));
-  CHECK(sweep.sweep.parameters.size() == 6);  // a tolerance class of a gear's error is three
+  CHECK(sweep.table<SweepTable>().parameters.size() == 6);  // a tolerance class of a gear's error is three
   const Study accuracy = parse_study(study_template("accuracy"), "accuracy.toml");
   CHECK(accuracy.task == &find_task("accuracy"));
   CHECK(accuracy.scenes.size() == 2);

@@ -3,6 +3,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "studies/tasks/study_template.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "studies/tasks/accuracy/accuracy_table.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -22,10 +23,10 @@ TEST_CASE("The study gives the finest level", "[studies][accuracy]") {
   const Study study =
       parse_study(study_template("accuracy"), "accuracy.toml", {{"accuracy.finest.compliance", "fe"}, {"accuracy.finest.positions", "256"}});
   CHECK(study.task == &find_task("accuracy"));
-  CHECK(study.accuracy.compliance == ComplianceModel::Fe);
-  CHECK(study.accuracy.gap == GapModel::WholeSurface);
-  CHECK(study.accuracy.intervals == 16);
-  CHECK(study.accuracy.positions == 256);
+  CHECK(study.table<AccuracyTable>().compliance == ComplianceModel::Fe);
+  CHECK(study.table<AccuracyTable>().gap == GapModel::WholeSurface);
+  CHECK(study.table<AccuracyTable>().intervals == 16);
+  CHECK(study.table<AccuracyTable>().positions == 256);
 }
 
 TEST_CASE("The cost of accuracy is that of a loaded contact", "[studies][accuracy]") {
@@ -41,8 +42,8 @@ TEST_CASE("A curve from outside has values, and a study with one load case", "[s
     return study_texts::read("", overrides);
   };
   const Study study = with({{key, "[12, 13.5, 12.5]"}});
-  CHECK(study.accuracy.outside.transmission_error == std::vector<double>{12e-3, 13.5e-3, 12.5e-3});
-  CHECK(study.accuracy.outside.name == "outside");
+  CHECK(study.table<AccuracyTable>().outside.transmission_error == std::vector<double>{12e-3, 13.5e-3, 12.5e-3});
+  CHECK(study.table<AccuracyTable>().outside.name == "outside");
   CHECK_THROWS_WITH(with({{key, "[12, 13.5]"}}), Catch::Contains(key) && Catch::Contains("3 to 1024 values"));
   CHECK_THROWS_WITH(parse_study(study_template("accuracy"), "accuracy.toml", {{key, "[12, 13.5, 12.5]"}}),
                     Catch::Contains(key) && Catch::Contains("this one has 2"));

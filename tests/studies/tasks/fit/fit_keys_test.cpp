@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "studies/tasks/fit/fit_choice.hpp"
 #include "studies/tasks/fit/fit_gears.hpp"
 #include "studies/tasks/study_template.hpp"
 #include "tests/studies/study_texts.hpp"
@@ -16,11 +17,11 @@ Study fit_study(const std::vector<Override>& overrides = {}) { return parse_stud
 }  // namespace
 
 TEST_CASE("By default the task fit takes both gears, one tooth and a test grid", "[studies][fit]") {
-  const FitChoice usual = study_texts::read("", {{"task", "fit"}}).fit;
+  const FitChoice usual = study_texts::read("", {{"task", "fit"}}).table<FitChoice>();
   CHECK((usual.gears.pinion && usual.gears.wheel && !usual.several_teeth && usual.test_grid));
   CHECK(usual.max_iterations == 300);
   const FitChoice other =
-      fit_study({{"fit.gear", "wheel"}, {"fit.form", "several_teeth"}, {"fit.test_grid", "off"}, {"fit.max_iterations", "7"}}).fit;
+      fit_study({{"fit.gear", "wheel"}, {"fit.form", "several_teeth"}, {"fit.test_grid", "off"}, {"fit.max_iterations", "7"}}).table<FitChoice>();
   CHECK((!other.gears.pinion && other.gears.wheel && other.several_teeth && !other.test_grid));
   CHECK(other.max_iterations == 7);
 }

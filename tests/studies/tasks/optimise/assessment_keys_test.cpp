@@ -4,6 +4,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/study_texts.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -13,22 +14,23 @@ using study_texts::problem_of;
 using study_texts::read;
 
 const SceneTolerance& tolerance(const Study& study, const std::string& path, bool added = false) {
-  for (const SceneTolerance& t : study.optimise.assessment.tolerances) {
+  for (const SceneTolerance& t : study.tolerances) {
     if (t.path == path && t.added == added) return t;
   }
   FAIL("no tolerance " << path);
-  return study.optimise.assessment.tolerances.front();
+  return study.tolerances.front();
 }
 
 TEST_CASE("By default an optimum is compared with rules of thumb alone", "[studies][assessment]") {
-  const AssessmentTable by_default = read().optimise.assessment;
+  const Study study = read();
+  const AssessmentTable& by_default = study.table<OptimiseTable>().assessment;
   CHECK(by_default.rules);
   CHECK(by_default.variants == 0.0);
   CHECK(by_default.validation.samples == 0);
   CHECK(by_default.scenes.samples == 0);
-  CHECK(by_default.tolerances.empty());
+  CHECK(study.tolerances.empty());
   CHECK(by_default.validation.seed != by_default.scenes.seed);  // afresh: not the scenes that the optimiser saw
-  const AssessmentTable asked = read("[optimise.comparison]\nrules = \"off\"\nvariants = 10\n").optimise.assessment;
+  const AssessmentTable asked = read("[optimise.comparison]\nrules = \"off\"\nvariants = 10\n").table<OptimiseTable>().assessment;
   CHECK_FALSE(asked.rules);
   CHECK(asked.variants == 10.0);
 }
@@ -46,7 +48,7 @@ TEST_CASE("Tolerances are read in the unit of their key, classes as that gear's 
   CHECK(tolerance(study, "pinion.error.helix_slope").distribution == Distribution::within_tolerance(pinion.helix_slope / units::um));
   CHECK(tolerance(study, "pinion.error.profile_slope").distribution == Distribution::within_tolerance(pinion.profile_slope / units::um));
   CHECK(tolerance(study, "pinion.error.pitch").pitch == PitchTolerance{study.pair.pinion.teeth, pinion.single_pitch, pinion.cumulative_pitch});
-  CHECK(study.optimise.assessment.tolerances.size() == 5);
+  CHECK(study.tolerances.size() == 5);
 }
 
 TEST_CASE("A bearing clearance tilts by up to clearance over span, after all that replaces values", "[studies][assessment]") {
@@ -55,7 +57,7 @@ TEST_CASE("A bearing clearance tilts by up to clearance over span, after all tha
 "wheel.bearing_clearance" = { clearance = 30, span = "0.2 m" }
 "misalignment.crossing" = { uniform = [-1, 1] }
 )");
-  const std::vector<SceneTolerance>& tolerances = study.optimise.assessment.tolerances;
+  const std::vector<SceneTolerance>& tolerances = study.tolerances;
   REQUIRE(tolerances.size() == 3);
   CHECK_FALSE(tolerances.front().added);
   const double tilt = 0.030 / 200.0 / units::arcmin;

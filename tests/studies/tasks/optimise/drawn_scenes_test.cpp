@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/studies/study_texts.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -64,7 +65,7 @@ load.torque = 120
 misalignment.intersecting = -2
 )";
   const Study study = tolerant_study(scenes);
-  const std::vector<OperatingState> states = operating_states(study, study.optimise.assessment.tolerances);
+  const std::vector<OperatingState> states = operating_states(study, study.tolerances);
   REQUIRE(states.size() == 2);  // misalignment, errors and weights make none
   CHECK(states[0].scene.name == "drive");
   CHECK(states[0].weight == 1.0);
@@ -88,7 +89,7 @@ misalignment.intersecting = -2
   const std::string torque = "\n[optimise.tolerances]\n\"load.torque\" = { uniform = [100, 300] }\n",
                     two = "[[scenes]]\n[[scenes]]\nload.torque = 120\n";
   const Study of_torque = study_texts::read(torque + two);
-  CHECK(operating_states(of_torque, of_torque.optimise.assessment.tolerances).size() == 1);
+  CHECK(operating_states(of_torque, of_torque.tolerances).size() == 1);
   CHECK(operating_states(of_torque, {}).size() == 2);
 }
 

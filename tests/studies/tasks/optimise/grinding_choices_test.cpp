@@ -8,6 +8,7 @@
 #include "studies/tasks/optimise/optimise_tables.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 /// optimise.grinding.smallest_amount and not_together.
 namespace flankwright::studies {
@@ -31,13 +32,13 @@ const std::string tip_and_profile = "[[\"pinion.modification.tip_relief\", \"pin
 
 TEST_CASE("Choices of the grinding are read", "[studies][grinding]") {
   const Study study = read(two_variables + "[optimise.grinding]\nsmallest_amount = 3\nnot_together = " + tip_and_profile + "\n");
-  const GrindableAmounts& grindable = study.optimise.grindable;
+  const GrindableAmounts& grindable = study.table<OptimiseTable>().grindable;
   CHECK(grindable.smallest == Approx(3.0 * units::um));
   REQUIRE(grindable.not_together.size() == 1);
   CHECK(grindable.not_together[0].member == Member::Pinion);
   CHECK(grindable.not_together[0].one == parameter_of("tip_relief.amount"));
   CHECK(grindable.not_together[0].other == parameter_of("profile_crowning"));
-  CHECK_FALSE(read(two_variables).optimise.grindable.any());
+  CHECK_FALSE(read(two_variables).table<OptimiseTable>().grindable.any());
 }
 
 TEST_CASE("Choices that leave no way are refused", "[studies][grinding][input]") {

@@ -9,6 +9,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "studies/results/tables.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 /// Keys of [optimise] beyond the plain objective, and what results.json says of them.
 namespace flankwright::studies {
@@ -45,7 +46,7 @@ const std::string wheel_link = R"([optimise.ties]
 TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studies][optimise-keys]") {
   const OptimiseTable table =
       read_optimisation(wheel_link, {{"optimise.step", "0.5"}, {"optimise.variables.wheel.modification.twist", "{ range = [-10, 10], step = 2 }"}})
-          .optimise;
+          .table<OptimiseTable>();
   REQUIRE(table.variables.size() == 5);
   for (const DesignVariable& v : table.variables) {
     CAPTURE(v.path);
@@ -54,7 +55,7 @@ TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studie
                                                                             : 0.0005;
     CHECK(v.step == Approx(step).epsilon(optimisation_round_off));
   }
-  const OptimiseTable unstepped = read_optimisation("", {{"optimise.step", "none"}}).optimise;
+  const OptimiseTable unstepped = read_optimisation("", {{"optimise.step", "none"}}).table<OptimiseTable>();
   for (const DesignVariable& v : unstepped.variables) CHECK(v.step == 0.0);
   CHECK_THAT(optimisation_problem("", {{"optimise.step", "0"}}).allowed, Catch::Contains("above 0 and at most 100 um, or \"none\""));
   REQUIRE(table.links.size() == 1);
@@ -68,7 +69,8 @@ TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studie
 
 TEST_CASE("A sum of modifications may be bounded from both sides", "[studies][optimise-keys]") {
   const OptimiseTable table =
-      read_optimisation("\"2 * pinion.modification.lead_crowning - pinion.modification.lead_slope\" = { min = -5, max = \"0.03 mm\" }\n").optimise;
+      read_optimisation("\"2 * pinion.modification.lead_crowning - pinion.modification.lead_slope\" = { min = -5, max = \"0.03 mm\" }\n")
+          .table<OptimiseTable>();
   REQUIRE(table.modification_constraints.size() == 1);
   const ModificationConstraint& sum = table.modification_constraints[0];
   REQUIRE(sum.terms.size() == 2);
@@ -136,10 +138,10 @@ TEST_CASE("Root stress with rigid teeth is refused in one line", "[studies][opti
 }
 
 TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimise-keys]") {
-  const Aggregation sigmas = read_optimisation("", {{"optimise.over", "mean+sigmas"}, {"optimise.sigmas", "3"}}).optimise.over;
+  const Aggregation sigmas = read_optimisation("", {{"optimise.over", "mean+sigmas"}, {"optimise.sigmas", "3"}}).table<OptimiseTable>().over;
   CHECK(sigmas == Aggregate::MeanPlusSigmas);
   CHECK(sigmas.sigmas == 3.0);
-  const Aggregation tail = read_optimisation("", {{"optimise.over", "cvar"}, {"optimise.cvar_level", "0.75"}}).optimise.over;
+  const Aggregation tail = read_optimisation("", {{"optimise.over", "cvar"}, {"optimise.cvar_level", "0.75"}}).table<OptimiseTable>().over;
   CHECK(tail == Aggregate::Cvar);
   CHECK(tail.level == 0.75);
 }

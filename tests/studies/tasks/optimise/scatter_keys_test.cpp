@@ -6,6 +6,7 @@
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/scatter_reading.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -23,9 +24,9 @@ draws = 16
 iso_1328_class = 6
 statistic = { cvar = 0.8 }
 )");
-  CHECK(study.optimise.scatter.statistic == Aggregate::Cvar);
-  CHECK(study.optimise.scatter.statistic.level == 0.8);
-  const auto& tolerances = study.optimise.assessment.tolerances;
+  CHECK(study.table<OptimiseTable>().scatter.statistic == Aggregate::Cvar);
+  CHECK(study.table<OptimiseTable>().scatter.statistic.level == 0.8);
+  const auto& tolerances = study.tolerances;
   CHECK(tolerances.size() == 10);  // two slopes, pitch, two forms of each gear
   CHECK(std::ranges::count(tolerances, std::string("pinion.error.helix_slope"), &SceneTolerance::path) == 1);
   const GearPair pair = make_gear_pair(study.pair);
@@ -76,8 +77,8 @@ TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of(limited("specific_film_thickness = { max = 0.5 }"), task).allowed, Contains("allowed is { min = ... }"));
   CHECK_THAT(problem_of(limited("edge_load = { min = 5 }"), task).allowed, Contains("allowed is { max = ... }"));
   // One of a hundred draws lies beyond their 99 % quantile, none of 99.
-  const auto notes_of = [](const std::string& draws) {
-    const Study study = read("[optimise.scatter]\niso_1328_class = 6\nstatistic = { quantile = 0.99 }\ndraws = " + draws + "\n");
+  const auto notes_of = [&](const std::string& draws) {
+    const Study study = read("[optimise.scatter]\niso_1328_class = 6\nstatistic = { quantile = 0.99 }\ndraws = " + draws + "\n", task);
     std::string all;
     for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) all += note;
     return all;
@@ -118,7 +119,7 @@ steepest_relief = 12
 "pinion.modification.lead_slope" = [-40, 40]
 "pinion.modification.tip_relief.amount" = [0, 60]
 )");
-  const auto& limits = study.optimise.modification_constraints;
+  const auto& limits = study.table<OptimiseTable>().modification_constraints;
   REQUIRE(limits.size() == 3);
   CHECK(limits[0].maximum == Approx(30.0 * units::um));
   CHECK(limits[0].minimum == Approx(-30.0 * units::um));  // a slope has either sign

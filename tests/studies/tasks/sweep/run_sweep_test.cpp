@@ -10,6 +10,7 @@
 #include "studies/tasks/sweep/worst_study.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
 #include "studies/analysis/run_study.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -23,9 +24,9 @@ std::vector<StoredSample> samples_of(const Study& study, Shard shard = {}) {
   const StudyResults nominal = run_study(study);
   const SampleAnalysis analysis(nominal);
   SweepStore store(":memory:", study, analysis.outputs(), shard);
-  run_samples(store, SweepDesign(study.sweep), analysis, shard, {});
+  run_samples(store, SweepDesign(study.table<SweepTable>()), analysis, shard, {});
   std::vector<StoredSample> samples;
-  store.for_each(study.sweep.samples, [&](const StoredSample& sample) { samples.push_back(sample); });
+  store.for_each(study.table<SweepTable>().samples, [&](const StoredSample& sample) { samples.push_back(sample); });
   return samples;
 }
 

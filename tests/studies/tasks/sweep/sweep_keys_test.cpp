@@ -3,9 +3,10 @@
 #include "core/gear/flank_tolerances.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "studies/tasks/sweep/sweep_design.hpp"
-#include "studies/study_file/sweep_value.hpp"
+#include "studies/tasks/sweep/sweep_design.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -15,11 +16,11 @@ using Catch::Contains;
 Study sweep_keys(const std::string& settings, const std::string& more = "") { return parse_study(small::sweep(settings, more), "sweep.toml"); }
 
 const SweepParameter& parameter(const Study& study, const std::string& path) {
-  for (const SweepParameter& p : study.sweep.parameters) {
+  for (const SweepParameter& p : study.table<SweepTable>().parameters) {
     if (p.path == path) return p;
   }
   FAIL("no parameter " << path);
-  return study.sweep.parameters.front();
+  return study.table<SweepTable>().parameters.front();
 }
 
 TEST_CASE("Distributions of a sweep are read in the unit of their key, or with their own", "[studies][sweep]") {
@@ -30,8 +31,8 @@ TEST_CASE("Distributions of a sweep are read in the unit of their key, or with t
 "wheel.error.twist" = { truncated_normal = [0, 2, -3, 3] }
 )");
   CHECK(study.task == &find_task("sweep"));
-  CHECK(study.sweep.samples == 100);
-  CHECK(study.sweep.sampler == Sampler::Sobol);
+  CHECK(study.table<SweepTable>().samples == 100);
+  CHECK(study.table<SweepTable>().sampler == Sampler::Sobol);
   constexpr double round_off = 1e-13;
   CHECK(parameter(study, "load.torque").distribution.quantile(0.25) == 900.0);
   CHECK(parameter(study, "load.torque").unit == "N·m");
@@ -46,7 +47,7 @@ TEST_CASE("Distributions of a sweep are read in the unit of their key, or with t
 TEST_CASE("A tolerance class is that gear's tolerance, and of an error all three that it covers", "[studies][sweep]") {
   const Study study =
       sweep_keys("samples = 100", "\"pinion.error\" = { iso_1328_class = 6 }\n\"wheel.error.helix_slope\" = { iso_1328_class = 8 }\n");
-  CHECK(study.sweep.parameters.size() == 7);
+  CHECK(study.table<SweepTable>().parameters.size() == 7);
   const GearPair pair = make_gear_pair(study.pair);
   const FlankTolerances pinion = flank_tolerances(ToleranceData::of(pair, Member::Pinion), 6);
   const FlankTolerances wheel = flank_tolerances(ToleranceData::of(pair, Member::Wheel), 8);
@@ -79,8 +80,8 @@ TEST_CASE("A grid has as many samples as its levels make", "[studies][sweep]") {
                                   {{"sweep.parameters",
                                     "{ load.torque = { values = [500, 1000] }, "
                                     "misalignment.mesh_misalignment = { grid = [-6, 6, 3] } }"}});
-  CHECK(study.sweep.samples == 6);
-  const SweepDesign design(study.sweep);
+  CHECK(study.table<SweepTable>().samples == 6);
+  const SweepDesign design(study.table<SweepTable>());
   CHECK(design.block_size() == 0);
   CHECK(design.values(0) == std::vector<double>{500.0, -6.0});
   CHECK(design.values(5) == std::vector<double>{1000.0, 6.0});

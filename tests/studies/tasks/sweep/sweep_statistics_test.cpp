@@ -5,6 +5,7 @@
 
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
+#include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 template <class Function>
 SweepStatistics statistics_of(const Study& study, const Function& outputs_at) {
   const std::vector<SweepOutput> outputs{{"sum", "-"}, {"stiffness", "-", true}};
-  const SweepDesign design(study.sweep);
+  const SweepDesign design(study.table<SweepTable>());
   SweepStore store(":memory:", study, outputs);
   for (long long i = design.samples(); i-- > 0;) {  // in any order
     const std::vector<double> values = design.values(i);
@@ -49,8 +50,8 @@ TEST_CASE("A linear output gives each parameter its share of the variance, and a
   const auto linear = [](const std::vector<double>& v) {
     return (v[0] - 1000.0) / 400.0 * std::sqrt(12.0) + 2.0 * (v[2] - 8.0) / 8.0 * std::sqrt(12.0);
   };
-  REQUIRE(study.sweep.parameters[0].path == "load.torque");
-  REQUIRE(study.sweep.parameters[2].path == "pinion.modification.lead_crowning");
+  REQUIRE(study.table<SweepTable>().parameters[0].path == "load.torque");
+  REQUIRE(study.table<SweepTable>().parameters[2].path == "pinion.modification.lead_crowning");
   const auto statistics = statistics_of(study, [&](long long, const auto& v) { return SampleResult{"", {linear(v), 1.0}}; });
   CHECK(statistics.blocks == 4096);
   const OutputStatistics& of = statistics.outputs[0];
