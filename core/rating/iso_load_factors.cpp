@@ -33,10 +33,12 @@ Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, con
   return plane_of_action_gap(pair, stations, condition).error / std::cos(pair.base_helix_angle);
 }
 
-/// Both ends of the common face.
+/// Both ends of the common face, which end roundings count to.
 std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& condition, int tooth) {
-  const double half = 0.5 * pair.face_width, middle = condition.misalignment.axial_offset / 2.0;
-  return at_stations(pair, tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
+  const double offset = condition.misalignment.axial_offset;  // of the wheel
+  const double of_pinion = 0.5 * pair.pinion.data.face_width, of_wheel = 0.5 * pair.wheel.data.face_width;
+  const double begin = std::max(-of_pinion, offset - of_wheel), end = std::min(of_pinion, offset + of_wheel);
+  return at_stations(pair, tooth, {{pair.pitch_point, begin}, {pair.pitch_point, end}});
 }
 
 /// Difference of the lead part between both ends, signed [mm]: less what opens the mesh at +z.

@@ -72,6 +72,7 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
   const std::optional<Oil> oil = oil_of(life, loaded);
   if (!oil || !(loaded.operation.speed > 0.0)) return;
   const FilmCondition condition = condition_of_film(model, life, loaded, *oil);
+  of.film_friction = condition.friction;
   of.bulk_temperature = condition.bulk_temperature;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const Eigen::VectorXd& load = loaded.cycle.positions[i].load.line_load;

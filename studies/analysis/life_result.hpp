@@ -28,6 +28,7 @@ struct CaseLife {
   double friction{not_given};                                     ///< mu_mz by Schlenk [-]
   double power{not_given};                                        ///< transmitted [W]
   double loss_power{not_given};                                   ///< [W]
+  double film_friction{not_given};                                ///< mu_m of ISO/TS 6336-22, of the temperatures [-]
   double bulk_temperature{not_given};                             ///< of the teeth, of the film [deg C]
   double film{not_given};                                         ///< least lambda_GF [-]
   double micropitting_safety{not_given};                          ///< film over the permissible one [-]

@@ -226,6 +226,13 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
         "the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
         pair.transverse_contact_ratio, pair.overlap_ratio));
   }
+  const bool is_beyond_ohlendorf = pair.transverse_contact_ratio < 1.0 || pair.transverse_contact_ratio > 2.0;
+  if (is_beyond_ohlendorf && study.life.has_lubricant && has_torque(study)) {
+    notes.push_back(fmt::format(
+        "the transverse contact ratio is {:.3g}: Ohlendorf's loss factor, from which ISO/TS 6336-22 has the bulk temperature, holds for 1 to 2 and is too "
+        "large above; the loss power is that of the local loads",
+        pair.transverse_contact_ratio));
+  }
   if (pair.backlash < -units::um) {
     notes.push_back(
         fmt::format("the teeth overlap by {:.4g} um at the centre distance of {:.6g} mm and would jam, from {:.6g} mm on they would not; only the "

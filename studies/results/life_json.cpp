@@ -65,6 +65,7 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
           {"power_W", of.power},
           {"loss_power_W", of.loss_power},
           {"loss_power_W_error", of.errors.loss_power},
+          {"film_friction", of.film_friction},
           {"bulk_temperature_degC", of.bulk_temperature},
           {"specific_film_thickness", of.film},
           {"specific_film_thickness_error", of.errors.film},

@@ -40,7 +40,7 @@ std::vector<SchemaKey> working_condition_rows() {
        .fallback = "0", .meaning = "delta alpha_n1 of the pinion",
        .store = [](Scene& s, Member, const Value& v) { s.misalignment.pinion_pressure_angle = v.number; }},
       {.path = "misalignment.mesh_misalignment", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "F_beta_y over the common face width, transverse base tangent; + opens at +z",
+       .meaning = "F_beta_y over the smaller face width, transverse base tangent; + opens at +z",
        .store = [](Scene& s, Member, const Value& v) { s.misalignment.mesh_misalignment = v.number; }},
 
       {.path = "material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7), .fallback = "206000",

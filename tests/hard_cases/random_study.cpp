@@ -60,9 +60,9 @@ class Drawing {
   void pair() {
     out_.table("pair");
     out_.line("normal_module", module_);
-    helix_ = one_in(3) ? 0.0 : one_in(10) ? 1e-6 : random_.uniform(0.0, 45.0);
+    helix_ = one_in(3) ? 0.0 : one_in(10) ? 1e-6 : random_(0.0, 45.0);
     out_.line("helix_angle", helix_);
-    if (one_in(4)) out_.line("pressure_angle", random_.uniform(14.5, 30.0));
+    if (one_in(4)) out_.line("pressure_angle", random_(14.5, 30.0));
     if (one_in(2)) out_.line("working_flank", choice("\"left\"", "\"right\""));
   }
 
@@ -75,14 +75,14 @@ class Drawing {
       if (one_in(2)) out_.line("hand", choice("\"left\"", "\"right\""));
     }
     out_.line("teeth", teeth);
-    out_.line("face_width", std::clamp(one_in(2) ? face_ : face_ * random_.uniform(0.8, 1.3), 0.001, 10000.0));
+    out_.line("face_width", std::clamp(one_in(2) ? face_ : face_ * random_(0.8, 1.3), 0.001, 10000.0));
     // Few teeth want a positive shift lest their involute be cut away.
-    if (one_in(2) || teeth < 17) out_.line("profile_shift", teeth < 17 ? random_.uniform(0.0, 0.6) : random_.uniform(-0.4, 0.8));
+    if (one_in(2) || teeth < 17) out_.line("profile_shift", teeth < 17 ? random_(0.0, 0.6) : random_(-0.4, 0.8));
     if (one_in(6)) {
-      const double addendum = random_.uniform(0.7, 1.3);
+      const double addendum = random_(0.7, 1.3);
       out_.line("rack.addendum", addendum);
-      out_.line("rack.dedendum", addendum + random_.uniform(0.15, 0.35));
-      out_.line("rack.root_radius", random_.uniform(0.0, 0.2));
+      out_.line("rack.dedendum", addendum + random_(0.15, 0.35));
+      out_.line("rack.root_radius", random_(0.0, 0.2));
     }
     // Sharp, and from nearly sharp to nearly the whole tip, and beyond.
     if (one_in(2)) out_.line("edges.tip_rounding", one_in(4) ? 0.0 : std::min(100.0, module_ * random_.log_uniform(1e-5, 0.5)));
@@ -90,14 +90,14 @@ class Drawing {
     // Up to 80 um at 3 mm of module and in proportion to it, within what is allowed.
     const double largest = std::min(1000.0, 27.0 * module_);
     for (const char* key : {"lead_crowning", "lead_slope", "addendum_crowning", "dedendum_crowning", "profile_slope", "twist"}) amount(key, largest);
-    if (one_in(3)) relief("tip_relief", largest, module_ * random_.uniform(0.05, 1.5));
-    if (one_in(4)) relief("root_relief", largest, module_ * random_.uniform(0.05, 1.0));
+    if (one_in(3)) relief("tip_relief", largest, module_ * random_(0.05, 1.5));
+    if (one_in(4)) relief("root_relief", largest, module_ * random_(0.05, 1.0));
     if (one_in(4)) {
       out_.line("end_relief.amount", random_.log_uniform(1e-9 * largest, largest));
-      out_.line("end_relief.length", std::clamp(face_ * random_.uniform(0.01, 0.4), 1e-6, 10000.0));
+      out_.line("end_relief.length", std::clamp(face_ * random_(0.01, 0.4), 1e-6, 10000.0));
     }
-    if (helix_ > 0.0 && one_in(5)) relief("triangular_tip_relief", largest, module_ * random_.uniform(0.05, 1.5));
-    if (helix_ > 0.0 && one_in(5)) relief("triangular_root_relief", largest, module_ * random_.uniform(0.05, 1.0));
+    if (helix_ > 0.0 && one_in(5)) relief("triangular_tip_relief", largest, module_ * random_(0.05, 1.5));
+    if (helix_ > 0.0 && one_in(5)) relief("triangular_root_relief", largest, module_ * random_(0.05, 1.0));
     if (one_in(8)) out_.line("parabolic_te", random_.log_uniform(1e-12, 1.0));
     if (one_in(4)) amount("topography.profile_2_face_2", largest);
     out_.table(name + ".error");
@@ -118,14 +118,14 @@ class Drawing {
     for (const char* key : {"crossing", "intersecting", "pinion_lead_angle", "pinion_pressure_angle"}) {
       if (one_in(2)) amount(key, 20.0);
     }
-    if (one_in(3)) out_.line("centre_distance", module_ * random_.uniform(-0.02, 0.1));
+    if (one_in(3)) out_.line("centre_distance", module_ * random_(-0.02, 0.1));
     if (one_in(3)) amount("axial_offset", 0.2 * face_);
     amount("mesh_misalignment", std::min(1000.0, 27.0 * module_));
   }
 
   void material() {
     out_.table("material");
-    out_.line("poissons_ratio", one_in(8) ? 0.0 : one_in(8) ? 0.499 : random_.uniform(0.2, 0.35));
+    out_.line("poissons_ratio", one_in(8) ? 0.0 : one_in(8) ? 0.499 : random_(0.2, 0.35));
     if (one_in(4)) out_.line("youngs_modulus", random_.log_uniform(1e3, 1e6));
   }
 

@@ -56,24 +56,30 @@ struct LawPair {
 
 LawPair random_pair(Random& random) {
   const auto gear = [&](int fewest, int most) {
-    return LawGear{random.integer(fewest, most), random.uniform(0.0, 0.3),  random.uniform(0.0, 15.0),
-                   random.uniform(-8.0, 8.0),    random.uniform(0.0, 8.0),  random.uniform(-4.0, 4.0),
-                   random.uniform(0.0, 20.0),    random.uniform(-6.0, 6.0), random.uniform(-6.0, 6.0)};
+    return LawGear{random.integer(fewest, most),
+                   random(0.0, 0.3),
+                   random(0.0, 15.0),
+                   random(-8.0, 8.0),
+                   random(0.0, 8.0),
+                   random(-4.0, 4.0),
+                   random(0.0, 20.0),
+                   random(-6.0, 6.0),
+                   random(-6.0, 6.0)};
   };
   LawPair pair{random.log_uniform(1.5, 8.0),
-               random.integer(0, 2) == 0 ? 0.0 : random.uniform(5.0, 30.0),
+               random.integer(0, 2) == 0 ? 0.0 : random(5.0, 30.0),
                0.0,
                random.integer(0, 1) == 1,
                gear(18, 30),
                gear(25, 90),
-               random.uniform(-4.0, 4.0),
-               random.uniform(-15.0, 15.0),
+               random(-4.0, 4.0),
+               random(-15.0, 15.0),
                0.0,
                {}};
-  pair.face = pair.module * random.uniform(5.0, 14.0);
+  pair.face = pair.module * random(5.0, 14.0);
   pair.torque = 150.0 * pair.face * 0.5e-3 * pair.module * pair.pinion.teeth;  // 150 N/mm at the reference circle
   const double last = pair.last_phase();
-  for (int k = 0; k < 5; ++k) pair.phases.push_back(std::fmod(random.uniform(0.3, 0.7) * last, last));
+  for (int k = 0; k < 5; ++k) pair.phases.push_back(std::fmod(random(0.3, 0.7) * last, last));
   return pair;
 }
 

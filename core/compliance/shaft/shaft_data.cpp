@@ -1,12 +1,12 @@
 #include "core/compliance/shaft/shaft_data.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 
 #include "core/base/findings.hpp"
+#include "core/base/positive_definite.hpp"
 
 namespace flankwright {
 
@@ -84,8 +84,11 @@ std::optional<InvalidInput> find_matrix_problem(const ShaftBearing& bearing) {
   }
   const bool across = bearing.holds()[0] && bearing.holds()[1];
   if (!across) return problem("no stiffness across the shaft", "one that holds the shaft along x and y");
-  if (Eigen::LLT<Eigen::MatrixXd>(k(held, held)).info() != Eigen::Success) {
-    return problem("not positive definite", "a matrix that is positive definite where its rows are not 0: no motion without force");
+  if (!is_positive_definite(k(held, held))) {
+    return problem(
+        "not positive definite",
+        "a matrix that is positive definite, to the seventh digit, where its rows are not 0: no motion without force. A bearing that does not "
+        "resist tilting has its position where it tilts about, and rows of 0 for the moments");
   }
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/base/findings.hpp"
+#include "core/base/positive_definite.hpp"
 #include "core/compliance/shaft/unit_statics.hpp"
 #include "core/compliance/shaft/unit_supports.hpp"
 
@@ -190,8 +191,8 @@ class Checking : Findings {
     const Eigen::ArrayXd scale = k.diagonal().array().abs().sqrt();
     const bool is_symmetric = ((k - k.transpose()).array().abs() <= round_off * (scale.matrix() * scale.matrix().transpose()).array()).all();
     require(is_symmetric, "unit.housing.stiffness", "not symmetric", "a symmetric matrix");
-    require(Eigen::LLT<Eigen::MatrixXd>(k).info() == Eigen::Success, "unit.housing.stiffness", "not positive definite",
-            "a positive definite matrix: no motion of the seats without force");
+    require(is_positive_definite(k), "unit.housing.stiffness", "not positive definite",
+            "a matrix that is positive definite, to the seventh digit: no motion of the seats without force");
   }
 
   ShaftsOfPair without_housing() const {

@@ -14,7 +14,7 @@ struct Misalignment {
   double axial_offset{0.0};           ///< wheel towards +z [mm]
   double pinion_lead_angle{0.0};      ///< delta lambda_p1 [rad], TM-107451 app. 2 in full: r_p1, r_b1, p_1 follow
   double pinion_pressure_angle{0.0};  ///< delta alpha_n1 [rad], TM-107451 eqs 15-17
-  double mesh_misalignment{0.0};      ///< F_beta_y [mm]: deviation of the flank lines over the common face width, transverse base
+  double mesh_misalignment{0.0};      ///< F_beta_y [mm]: deviation of the flank lines over the smaller face width, transverse base
                                       ///< tangent, linear, zero at the wheel's mid face; + opens at +z
 
   auto operator<=>(const Misalignment&) const = default;

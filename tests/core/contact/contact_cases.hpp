@@ -2,13 +2,13 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 
 #include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/contact/unloaded/tooth_contact.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
+#include "tests/common/random.hpp"
 
 /// What the tests of unloaded contact share: pairs, scenes and an evaluation that knows nothing of the solver.
 namespace flankwright::contact_cases {
@@ -70,17 +70,7 @@ inline double highest_on_grid(const FlankAssembly& scene, double phi1, int inter
   return highest;
 }
 
-/// Uniform numbers that are the same on every machine.
-class Random {
- public:
-  explicit Random(unsigned seed) : generator_(seed) {}
-  double operator()(double from, double to) { return from + (to - from) * static_cast<double>(generator_()) / 4294967296.0; }
-  int integer(int from, int to) { return from + static_cast<int>(generator_() % static_cast<unsigned>(to - from + 1)); }
-  bool coin() { return generator_() % 2 == 1; }
-
- private:
-  std::mt19937 generator_;
-};
+using tests::Random;
 
 /// A modification whose amounts a designer might choose for teeth of 3 mm module.
 inline Modification random_modification(Random& random, const Gear& gear) {

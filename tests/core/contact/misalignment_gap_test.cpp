@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/contact/gap/condition_gap.hpp"
-#include "tests/core/load/load_cases.hpp"
+#include "tests/common/random.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -12,13 +12,13 @@ using namespace flankwright;
 
 namespace {
 
-/// Misalignment of every kind as a poor housing has it.
-Misalignment random_misalignment(load_cases::Random& random) {
+/// As a poor housing has it.
+Misalignment of_every_kind(tests::Random& random) {
   Misalignment m;
-  for (const NamedMisalignmentParameter& p : misalignment_parameters) m.*p.parameter = random.uniform(-1.0, 1.0) * units::arcmin;
-  m.centre_distance = random.uniform(-0.1, 0.1);
-  m.mesh_misalignment = random.uniform(-0.02, 0.02);
-  m.axial_offset = random.uniform(-2.0, 2.0);
+  for (const NamedMisalignmentParameter& p : misalignment_parameters) m.*p.parameter = random(-1.0, 1.0) * units::arcmin;
+  m.centre_distance = random(-0.1, 0.1);
+  m.mesh_misalignment = random(-0.02, 0.02);
+  m.axial_offset = random(-2.0, 2.0);
   return m;
 }
 
@@ -32,14 +32,14 @@ TEST_CASE("Gaps change with misalignment as central differences say", "[core][co
   constexpr double kEdge = 1e-5;
   const double helix = GENERATE(0.0, 12.0, 30.0);
   const bool left = GENERATE(false, true);
-  load_cases::Random random(71);
+  tests::Random random(71);
   PairData data = mesh_cases::pair_data(19, 41, helix, 5, 60);
   data.working_flank = left ? WorkingFlank::Left : WorkingFlank::Right;
   const GearPair pair = make_gear_pair(data);
   const MeshModel model = mesh_cases::model(pair, {{}, {0.2, 0.9}});
   for (int trial = 0; trial < 10; ++trial) {
     FlankCondition condition;
-    condition.misalignment = random_misalignment(random);
+    condition.misalignment = of_every_kind(random);
     for (const MeshPosition& at : model.positions) {
       for (const NamedMisalignmentParameter& p : misalignment_parameters) {
         if (p.parameter == &Misalignment::axial_offset) continue;  // moves the points: core/load

@@ -24,19 +24,19 @@ struct Scene {
 Scene random_scene(const GearPair& gears, Random& random) {
   Scene scene;
   for (Modification* m : {&scene.condition.modification.pinion, &scene.condition.modification.wheel}) {
-    m->lead_crowning = random.uniform(1.0, 8.0) * units::um;
-    m->lead_slope = random.uniform(-3.0, 3.0) * units::um;
-    m->addendum_crowning = m->dedendum_crowning = random.uniform(0.5, 4.0) * units::um;
-    m->tip_relief = {random.uniform(2.0, 8.0) * units::um, random.uniform(0.3, 0.6) * gears.data.normal_module, ReliefShape::Parabolic};
-    m->twist = random.uniform(-2.0, 2.0) * units::um;
+    m->lead_crowning = random(1.0, 8.0) * units::um;
+    m->lead_slope = random(-3.0, 3.0) * units::um;
+    m->addendum_crowning = m->dedendum_crowning = random(0.5, 4.0) * units::um;
+    m->tip_relief = {random(2.0, 8.0) * units::um, random(0.3, 0.6) * gears.data.normal_module, ReliefShape::Parabolic};
+    m->twist = random(-2.0, 2.0) * units::um;
   }
   Misalignment& misalignment = scene.condition.misalignment;
-  misalignment.crossing = random.uniform(-0.2, 0.2) * units::arcmin;
-  misalignment.intersecting = random.uniform(-0.2, 0.2) * units::arcmin;
-  misalignment.centre_distance = random.uniform(-0.02, 0.02);
-  misalignment.pinion_lead_angle = random.uniform(-0.1, 0.1) * units::arcmin;
-  misalignment.pinion_pressure_angle = random.uniform(-0.1, 0.1) * units::arcmin;
-  misalignment.mesh_misalignment = random.uniform(-5.0, 5.0) * units::um;
+  misalignment.crossing = random(-0.2, 0.2) * units::arcmin;
+  misalignment.intersecting = random(-0.2, 0.2) * units::arcmin;
+  misalignment.centre_distance = random(-0.02, 0.02);
+  misalignment.pinion_lead_angle = random(-0.1, 0.1) * units::arcmin;
+  misalignment.pinion_pressure_angle = random(-0.1, 0.1) * units::arcmin;
+  misalignment.mesh_misalignment = random(-5.0, 5.0) * units::um;
   scene.torque = mesh_cases::torque_for(gears, random.log_uniform(150.0, 600.0));
   return scene;
 }

@@ -40,7 +40,7 @@ LoadProblem random_problem(int n, Random& random) {
   problem.influence = influence(structure, n, random.log_uniform(1e-8, 1e-4), random);
   problem.gap = random.integer(0, 5) == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n))
                                           : Eigen::VectorXd(random.vector(n, 0.0, 1.0) * random.log_uniform(1e-7, 1.0));
-  if (random.integer(0, 3) == 0) problem.gap.array() += random.uniform(-1.0, 1.0);
+  if (random.integer(0, 3) == 0) problem.gap.array() += random(-1.0, 1.0);
   if (random.integer(0, 7) != 0) {
     problem.laws = random_laws(n, random);
   } else if (structure == Structure::Rigid) {

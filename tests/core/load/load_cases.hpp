@@ -5,34 +5,18 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/load/solve/load_problem.hpp"
+#include "tests/common/random.hpp"
 
 /// Load problems for tests: steel contacts, influence matrices of every kind, and what proves a solution.
 namespace flankwright::load_cases {
 
 inline const Material steel{};
 
-/// Random numbers that are the same on every machine.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double uniform(double from, double to) { return from + (to - from) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  double log_uniform(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
-  int integer(int from, int to) { return from + static_cast<int>(uniform(0.0, to - from + 1.0)); }
-  Eigen::VectorXd vector(Eigen::Index n, double from, double to) {
-    return Eigen::VectorXd::NullaryExpr(n, [&] { return uniform(from, to); });
-  }
-  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) {
-    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(-1.0, 1.0); });
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using tests::Random;
 
 /// Contact of two steel teeth: radius R and depths in mm.
 inline ContactLaw steel_law(double relative_radius = 12.0, double depth_1 = 8.0, double depth_2 = 9.0,

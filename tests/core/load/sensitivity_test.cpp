@@ -169,15 +169,14 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
     FlankCondition condition;
     for (Modification* m : {&condition.modification.pinion, &condition.modification.wheel}) {
       for (const ModificationDescriptor& p : modification_parameters) {
-        set(*m, p.parameter,
-            p.kind == ParameterKind::Extent ? random.uniform(0.3, 0.9) * gears.data.normal_module : random.uniform(0.5, 4.0) * units::um);
+        set(*m, p.parameter, p.kind == ParameterKind::Extent ? random(0.3, 0.9) * gears.data.normal_module : random(0.5, 4.0) * units::um);
       }
       m->tip_relief.shape = design % 2 == 0 ? ReliefShape::Linear : ReliefShape::Parabolic;
       m->triangular_tip_relief.shape = m->tip_relief.shape;
       m->triangular_root_relief.shape = design % 2 == 0 ? ReliefShape::Parabolic : ReliefShape::Linear;
       m->root_relief.shape = design % 2 == 0 ? ReliefShape::Parabolic : ReliefShape::Linear;
     }
-    condition.misalignment.mesh_misalignment = random.uniform(-10.0, 10.0) * units::um;
+    condition.misalignment.mesh_misalignment = random(-10.0, 10.0) * units::um;
     const double torque = mesh_cases::torque_for(gears, random.log_uniform(100.0, 600.0));
     std::vector<GearParameter> parameters;
     for (Member member : {Member::Pinion, Member::Wheel}) {

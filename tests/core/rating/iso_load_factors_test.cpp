@@ -42,6 +42,13 @@ TEST_CASE("ISO's misalignment is the linear part of the gap along the face", "[c
   // Teeth that differ: the worst of them.
   c.error.pinion.helix_slopes = {0, -2 * units::um, 2 * units::um};
   CHECK(iso_deviations(gears, c).misalignment == Approx(5 * units::um).epsilon(kRoundOff));
+  // A wheel that stands aside leaves less face in common, and as much less of a slope that is over the whole face.
+  FlankCondition aside;
+  aside.misalignment.mesh_misalignment = 12 * units::um;
+  for (const double offset : {30.0, -60.0}) {
+    aside.misalignment.axial_offset = offset;
+    CHECK(iso_deviations(gears, aside).misalignment == Approx(12 * units::um * (120.0 - std::abs(offset)) / 120.0).epsilon(kRoundOff));
+  }
   // Crossing axes: an angle in the plane of action, by cos(alpha_wt), over the face.
   FlankCondition crossed;
   crossed.misalignment.crossing = 1 * units::arcmin;

@@ -171,6 +171,16 @@ TEST_CASE("Check warns of what a run would warn of first", "[studies][cli]") {
   CAPTURE(stubbed.err);
   CHECK_THAT(stubbed.err, Contains("the pinion's dedendum touches over a height of"));
   CHECK_THAT(run(folder, {"check", "small.toml", "--set", "pair.centre_distance=424"}).err, Contains("the transverse contact ratio is 0.709"));
+  const std::vector<std::string> oil{"check", "small.toml",
+                                     "--set", "lubricant.viscosity_40=220",
+                                     "--set", "lubricant.viscosity_100=19",
+                                     "--set", "lubricant.temperature=80",
+                                     "--set", "lubricant.roughness=0.5",
+                                     "--set", "load.speed=1500"};
+  CHECK_THAT(run(folder, oil).err, !Contains("Ohlendorf"));
+  std::vector<std::string> apart = oil;
+  apart.insert(apart.end(), {"--set", "pair.centre_distance=424"});
+  CHECK_THAT(run(folder, apart).err, Contains("Ohlendorf's loss factor"));
 }
 
 TEST_CASE("Any other bad input has exit code 2 and a message with the allowed values", "[studies][cli]") {

@@ -304,6 +304,13 @@ TEST_CASE("Results have the damage of each load case and its sum, by hand", "[st
               .epsilon(round_off));
     CHECK(loss < 1.5 * life.at("ohlendorf_loss_factor").get<double>());
     CHECK(of.at("specific_film_thickness").get<double>() > 0.0);
+    // theta_M of ISO/TS 6336-22, by the coefficient of friction that is shown.
+    const Json& pair = document.at("used").at("pair");
+    const auto usable = [&](const char* gear) { return pair.at(gear).at("usable_face_width_mm").get<double>(); };
+    const double width = std::min(usable("pinion"), usable("wheel")), distance = document.at("geometry").at("centre_distance_mm");
+    const double kilowatts = of.at("power_W").get<double>() / 1e3, friction = of.at("film_friction");
+    const double heat = kilowatts * friction * life.at("ohlendorf_loss_factor").get<double>() / (distance * width);
+    CHECK(of.at("bulk_temperature_degC").get<double>() == Approx(80.0 + 7400.0 * std::pow(heat, 0.72)).epsilon(round_off));
     const double hottest = of.at("contact_temperature_degC");
     CHECK(hottest == Approx(of.at("bulk_temperature_degC").get<double>() + of.at("flash_temperature_K").get<double>()).epsilon(round_off));
     CHECK(of.at("scuffing_safety").get<double>() == Approx((250.0 - 80.0) / (hottest - 80.0)).epsilon(round_off));
