@@ -74,6 +74,17 @@ FlankCondition apply_effects(const EffectDecisions& decisions, FlankCondition co
   return condition;
 }
 
+std::vector<std::string> effects_missing_for(const EffectDecisions& decisions, const FlankCondition& condition, const EffectList& effects) {
+  std::vector<std::string> missing;
+  for (const Effect* effect : in_order_of_flow(effects)) {
+    if (!effect->listed() || is_on(decisions, effect->name())) continue;
+    FlankCondition rest = condition;
+    effect->clear_from(rest);
+    if (!(rest == condition)) missing.emplace_back(effect->name());
+  }
+  return missing;
+}
+
 GapModel gap_model(const EffectDecisions& decisions) {
   return is_on(decisions, "whole_surface_gap") ? GapModel::WholeSurface : GapModel::PlaneOfAction;
 }

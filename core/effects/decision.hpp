@@ -40,6 +40,10 @@ MeshEffects mesh_effects(const EffectDecisions& decisions, const EffectList& eff
 /// The condition without everything whose effect is off.
 FlankCondition apply_effects(const EffectDecisions& decisions, FlankCondition condition, const EffectList& effects = registered_effects());
 
+/// Names of the effects of a study's list that are off and hold a part of a condition, which apply_effects() takes from it.
+std::vector<std::string> effects_missing_for(const EffectDecisions& decisions, const FlankCondition& condition,
+                                             const EffectList& effects = registered_effects());
+
 /// The gap model with these effects.
 GapModel gap_model(const EffectDecisions& decisions);
 

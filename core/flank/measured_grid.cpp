@@ -51,13 +51,50 @@ void check_not_folded(const GridSamples& removed) {
   }
 }
 
-class GridField final : public DeviationField {
+using SharedSpline = std::shared_ptr<const BicubicSpline>;
+
+/// A measured surface as far as it changes along the face, by its trace at one roll length.
+class HelixTrace final : public DeviationField {
  public:
-  explicit GridField(BicubicSpline spline) : spline_(std::move(spline)) {}
-  Jet at(double rho, double z) const override { return spline_.at(rho, z); }
+  HelixTrace(SharedSpline spline, double rho, double middle) : spline_(std::move(spline)), rho_(rho), from_(spline_->at(rho, middle).value) {}
+  Jet at(double, double z) const override {
+    const Jet of = spline_->at(rho_, z);
+    return {of.value - from_, 0.0, of.v, 0.0, 0.0, of.vv};
+  }
 
  private:
-  BicubicSpline spline_;
+  SharedSpline spline_;
+  double rho_, from_;
+};
+
+/// As far as it changes along the profile, by its trace at one axial position.
+class ProfileTrace final : public DeviationField {
+ public:
+  ProfileTrace(SharedSpline spline, double z) : spline_(std::move(spline)), z_(z) {}
+  Jet at(double rho, double) const override {
+    const Jet of = spline_->at(rho, z_);
+    return {of.value, of.u, 0.0, of.uu, 0.0, 0.0};
+  }
+
+ private:
+  SharedSpline spline_;
+  double z_;
+};
+
+class GridField final : public DeviationField {
+ public:
+  /// @param rho, z  of the middle of the grid
+  GridField(SharedSpline spline, double rho, double z)
+      : spline_(std::move(spline)),
+        along_face_(std::make_shared<HelixTrace>(spline_, rho, z)),
+        along_profile_(std::make_shared<ProfileTrace>(spline_, z)) {}
+  Jet at(double rho, double z) const override { return spline_->at(rho, z); }
+  std::shared_ptr<const DeviationField> along_face() const override { return along_face_; }
+  std::shared_ptr<const DeviationField> along_profile() const override { return along_profile_; }
+
+ private:
+  SharedSpline spline_;
+  std::shared_ptr<const DeviationField> along_face_, along_profile_;
 };
 
 }  // namespace
@@ -107,7 +144,9 @@ GridFit make_grid_field(const MeasuredGrid& grid, double base_radius, double bas
   check_not_folded(removed);
   SplineFit fit = fit_spline(removed, {checked_pieces(options.profile_pieces, grid.radii.size(), "grid.profile_pieces"),
                                        checked_pieces(options.face_pieces, grid.z.size(), "grid.face_pieces")});
-  return {std::make_shared<GridField>(std::move(fit.spline)), fit.rms * cos_beta_b, fit.largest * cos_beta_b};
+  const auto middle = [](const std::vector<double>& values) { return 0.5 * (values.front() + values.back()); };
+  return {std::make_shared<GridField>(std::make_shared<const BicubicSpline>(std::move(fit.spline)), middle(removed.u), middle(removed.v)),
+          fit.rms * cos_beta_b, fit.largest * cos_beta_b};
 }
 
 }  // namespace flankwright

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "core/base/jet.hpp"
 
 namespace flankwright {
@@ -12,6 +14,12 @@ namespace flankwright {
 class DeviationField {
  public:
   virtual ~DeviationField() = default;
+
+  /// What changes along the face alone: the trace at the middle of the profile, from its value at mid face on. Always the same one; null: the field
+  /// counts as a deviation of the whole flank.
+  virtual std::shared_ptr<const DeviationField> along_face() const { return nullptr; }
+  /// What changes along the profile alone, and from tooth to tooth: the trace at mid face.
+  virtual std::shared_ptr<const DeviationField> along_profile() const { return nullptr; }
 
   /// D and its first and second derivatives, u = rho, v = z. Exact (closed form or differentiation of the defining equations), for
   /// rho > 0 over the tooth and a little beyond its ends.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/contact/gap/condition_gap.hpp"
 #include "core/contact/path/path_of_contact.hpp"
@@ -41,17 +42,42 @@ std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& 
   return at_stations(pair, tooth, {{pair.pitch_point, begin}, {pair.pitch_point, end}});
 }
 
-/// Difference of the lead part between both ends, signed [mm]: less what opens the mesh at +z.
+/// Takes what was measured out of a condition. @returns  a condition of it alone
+FlankCondition take_measured(FlankCondition& condition) {
+  FlankCondition measured;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    std::swap(measured.modification[m].topography, condition.modification[m].topography);
+    std::swap(measured.error[m].topographies, condition.error[m].topographies);
+  }
+  return measured;
+}
+
+/// The rise of a line through values at equal distances, by least squares, from the first to the last.
+double rise_of_line(const Eigen::VectorXd& values) {
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(values.size(), -0.5, 0.5);
+  return x.dot(values) / x.squaredNorm();
+}
+
+/// Difference of the lead part between both ends, signed [mm]: less what opens the mesh at +z. Of a measured trace that of its mean line, as ISO 1328-1 has the
+/// helix slope deviation.
 double linear_part(const GearPair& pair, const FlankCondition& condition, int tooth) {
-  const Eigen::VectorXd ends = added(pair, lead_part(condition), face_ends(pair, condition, tooth));
-  return ends[1] - ends[0];
+  FlankCondition lead = lead_part(condition);
+  const FlankCondition measured = take_measured(lead);
+  const std::vector<ContactPoint> ends = face_ends(pair, condition, tooth);
+  const Eigen::VectorXd at_ends = added(pair, lead, ends);
+  const double rise = at_ends[1] - at_ends[0];
+  if (measured == FlankCondition{}) return rise;
+  constexpr int sections = 33;
+  std::vector<std::pair<double, double>> stations;
+  for (int i = 0; i < sections; ++i) stations.emplace_back(pair.pitch_point, std::lerp(ends[0].z, ends[1].z, i / (sections - 1.0)));
+  return rise + rise_of_line(added(pair, measured, at_stations(pair, tooth, stations)));
 }
 
 /// Tooth pairs after which slopes repeat on the gear with the longer list.
 int teeth_told_apart(const FlankCondition& condition) {
   std::size_t most = 1;
   for (const ManufacturingError* error : {&condition.error.pinion, &condition.error.wheel}) {
-    most = std::max({most, error->helix_slopes.size(), error->profile_slopes.size()});
+    most = std::max({most, error->helix_slopes.size(), error->profile_slopes.size(), error->topographies.size()});
   }
   return static_cast<int>(most);
 }
@@ -66,10 +92,14 @@ double largest_pitch_step(const ManufacturingError& error) {
 
 /// Peak to peak of the errors' profile deviation of both gears at mid face, tooth pair k.
 double profile_deviation(const GearPair& pair, const FlankCondition& condition, int tooth) {
-  constexpr int sections = 16;  // the errors' profiles are straight in the radius, curved a little in the roll length
+  constexpr int sections = 16;  // given slopes are straight in the radius, curved a little in the roll length
+  const FlankCondition profile = profile_part(condition);
   FlankCondition errors;
-  errors.error.pinion.profile_slope = tooth_error(condition.error.pinion, tooth).profile_slope;
-  errors.error.wheel.profile_slope = tooth_error(condition.error.wheel, tooth).profile_slope;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    errors.error[m].profile_slope = tooth_error(condition.error[m], tooth).profile_slope;
+    const auto& measured = profile.error[m].topographies;
+    if (!measured.empty()) errors.error[m].topographies = {measured[static_cast<std::size_t>(tooth) % measured.size()]};
+  }
   std::vector<std::pair<double, double>> stations;
   for (int i = 0; i <= sections; ++i) {
     stations.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);

@@ -1,13 +1,30 @@
 #include "core/rating/load_factors.hpp"
 
+#include <algorithm>
+#include <vector>
+
 namespace flankwright {
 
 namespace {
+
+using Field = std::shared_ptr<const DeviationField>;
+
+/// What a measured field changes along the face, or along the profile; null as it has none.
+Field traced(const Field& field, Field (DeviationField::*trace)() const) { return field == nullptr ? nullptr : ((*field).*trace)(); }
+
+/// Of all teeth; empty where none has a trace.
+std::vector<Field> traced(const std::vector<Field>& fields, Field (DeviationField::*trace)() const) {
+  std::vector<Field> traces;
+  for (const Field& field : fields) traces.push_back(traced(field, trace));
+  const bool has_any = std::ranges::any_of(traces, [](const Field& field) { return field != nullptr; });
+  return has_any ? traces : std::vector<Field>{};
+}
 
 ManufacturingError lead_of(const ManufacturingError& e) {
   ManufacturingError part;
   part.helix_slope = e.helix_slope;
   part.helix_slopes = e.helix_slopes;
+  part.topographies = traced(e.topographies, &DeviationField::along_face);
   return part;
 }
 
@@ -17,6 +34,13 @@ ManufacturingError profile_of(const ManufacturingError& e) {
   part.profile_slopes = e.profile_slopes;
   part.pitch_step = e.pitch_step;
   part.cumulative_pitch = e.cumulative_pitch;
+  part.topographies = traced(e.topographies, &DeviationField::along_profile);
+  return part;
+}
+
+Modification part_of(const Modification& m, ModificationClass flank_class, Field (DeviationField::*trace)() const) {
+  Modification part = only(m, flank_class);
+  part.topography = traced(m.topography, trace);
   return part;
 }
 
@@ -39,8 +63,8 @@ FlankCondition perfect_part(const FlankCondition& condition) {
 
 FlankCondition lead_part(const FlankCondition& condition) {
   FlankCondition part = perfect_part(condition);
-  part.modification.pinion = only(condition.modification.pinion, ModificationClass::Lead);
-  part.modification.wheel = only(condition.modification.wheel, ModificationClass::Lead);
+  part.modification.pinion = part_of(condition.modification.pinion, ModificationClass::Lead, &DeviationField::along_face);
+  part.modification.wheel = part_of(condition.modification.wheel, ModificationClass::Lead, &DeviationField::along_face);
   part.error.pinion = lead_of(condition.error.pinion);
   part.error.wheel = lead_of(condition.error.wheel);
   part.misalignment.crossing = condition.misalignment.crossing;
@@ -52,8 +76,8 @@ FlankCondition lead_part(const FlankCondition& condition) {
 
 FlankCondition profile_part(const FlankCondition& condition) {
   FlankCondition part = perfect_part(condition);
-  part.modification.pinion = only(condition.modification.pinion, ModificationClass::Profile);
-  part.modification.wheel = only(condition.modification.wheel, ModificationClass::Profile);
+  part.modification.pinion = part_of(condition.modification.pinion, ModificationClass::Profile, &DeviationField::along_profile);
+  part.modification.wheel = part_of(condition.modification.wheel, ModificationClass::Profile, &DeviationField::along_profile);
   part.error.pinion = profile_of(condition.error.pinion);
   part.error.wheel = profile_of(condition.error.wheel);
   part.misalignment.pinion_pressure_angle = condition.misalignment.pinion_pressure_angle;

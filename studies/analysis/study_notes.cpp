@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/base/units.hpp"
 #include "core/flank/natural_twist.hpp"
+#include "studies/analysis/study_effects.hpp"
 #include "studies/compliance/study_compliance.hpp"
 
 namespace flankwright::studies {
@@ -176,6 +178,23 @@ void note_one_sided_derivative(const Study& study, const GearPair& pair, std::ve
       "offsets");
 }
 
+/// What scenes have, and a list of effects leaves out.
+void note_left_out_effects(const Study& study, std::vector<std::string>& notes) {
+  if (study.fidelity.automatic_effects) return;
+  const EffectDecisions decisions = study_effects(study), called_for = decide_effects(effect_facts(study));
+  std::map<std::string, std::vector<std::string>> scenes_without;  // by the effect
+  for (const Scene& scene : study.scenes) {
+    for (const std::string& effect : effects_missing_for(decisions, condition_of(study, scene))) {
+      if (is_on(called_for, effect)) scenes_without[effect].push_back(scene.name);
+    }
+  }
+  for (const auto& [effect, scenes] : scenes_without) {
+    notes.push_back(
+        fmt::format("fidelity.effects leaves \"{}\" out: what {} of it counts nowhere", effect,
+                    scenes.size() == study.scenes.size() ? "the study says" : fmt::format("the scenes \"{}\" say", fmt::join(scenes, "\", \""))));
+  }
+}
+
 }  // namespace
 
 std::string backlash_in_words(const GearPair& pair) {
@@ -241,6 +260,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   }
   if (pair.backlash >= -units::um) note_closed_backlash(study, pair, notes);
   note_one_sided_derivative(study, pair, notes);
+  if (!study.task->single_gears) note_left_out_effects(study, notes);
   note_other_flanks(study, notes);
   return notes;
 }

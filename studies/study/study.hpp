@@ -117,7 +117,7 @@ struct Study {
   std::vector<Scene> scenes;                 ///< never empty: without [[scenes]] the one nominal scene of the base tables
   std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where the task is "analyse"
   TaskTables tables;                         ///< what it says to its tasks, see table()
-  std::vector<SceneTolerance> tolerances;    ///< of assembly and manufacture, those of the class in front
+  std::vector<SceneTolerance> tolerances;    ///< of assembly and manufacture; those of tolerance_class among them
   std::optional<int> tolerance_class;        ///< of both gears; none: tolerances are given one by one
   bool points_of_all_cases{true};            ///< contact points of every load case in the results; false: of those that govern
   std::optional<int> drawing_class;          ///< of the drawing of the flanks; none: that of the tolerances

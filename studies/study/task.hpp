@@ -23,8 +23,8 @@ struct StudyReading;
 struct StudyResults;
 class StudyRun;
 
-/// A task of a study: one folder of studies/tasks and one line in registered_tasks(), with its keys and the table that they fill, Study::table(); what it finds beside the load cases it keeps by
-/// StudyResults::set_found(). What a member leaves empty, the task does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
+/// A task of a study: one folder of studies/tasks and one line in registered_tasks(). Its keys fill a table of its own, Study::table(); what it finds beside the
+/// load cases it keeps by StudyResults::set_found(). What a member leaves empty, the task does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
 struct Task {
   const char* name{nullptr};     ///< as a study names it
   const char* meaning{nullptr};  ///< one sentence of Markdown that heads its keys in the key reference, with a link from studies/
@@ -39,7 +39,7 @@ struct Task {
   /// Flank conditions that effects are decided by; empty: those of the study's scenes.
   std::vector<FlankCondition> (*conditions)(const Study&){nullptr};
   bool (*asks_for_root_stress)(const Study&){nullptr};
-  /// What it varies of the modifications, and what is linked to that; of every study, see varied_by_tasks().
+  /// Modifications that it varies, and those linked to them; asked of every study, see varied_by_tasks().
   std::vector<DesignVariable> (*varied)(const Study&){nullptr};
   void (*add_notes)(const Study&, std::vector<std::string>&){nullptr};  ///< on what a study of this task asks for
 
@@ -57,7 +57,7 @@ struct Task {
 /// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp.
 std::span<const Task* const> registered_tasks();
 
-/// Modifications that are no single number in a study, whichever task it names: those that some task would vary.
+/// Modifications that have a range in a study instead of a value: all that some task would vary, whichever task the study names.
 std::vector<DesignVariable> varied_by_tasks(const Study& study);
 
 /// @throws InvalidInput "task" for a name that no task has

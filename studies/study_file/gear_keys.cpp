@@ -110,9 +110,12 @@ std::vector<SchemaKey> geometry_rows() {
       {.path = "gear.rack.root_radius", .range = from_zero(2.0), .fallback = "0.39",
        .meaning = "rho_fP, in normal modules; at most the full rounding of the tool's tip",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.root_radius = v.number; }},
-      {.path = "gear.process", .kind = Word, .words = {grinding_kind_names.begin(), grinding_kind_names.end()}, .fallback = "\"none\"",
+      {.path = "gear.process", .kind = WordOrTable, .words = {grinding_kind_names.begin(), grinding_kind_names.end()}, .fallback = "\"none\"",
        .meaning = "what finishes the flank: generating_grinding and form_grinding twist a lead modification of helical teeth; topological grinds every "
                   "point as asked; none is computed as topological, and the notes say what twist it leaves out",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { if (!v.text.empty()) process(d, m).kind = static_cast<GrindingKind>(v.integer); }},
+      {.path = "gear.process.kind", .kind = Word, .words = {grinding_kind_names.begin(), grinding_kind_names.end()}, .fallback = "(none)",
+       .meaning = "the same, of a process that is written as a table",
        .store = [](StudyBuilder& d, Member m, const Value& v) { process(d, m).kind = static_cast<GrindingKind>(v.integer); }},
       {.path = "gear.twist_compensation", .range = from_zero(1.0), .fallback = "0",
        .meaning = std::string(describe(parameter_of("twist_compensation")).meaning), .store = parameter_of("twist_compensation")},

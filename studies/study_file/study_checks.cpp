@@ -214,7 +214,18 @@ void check_other_flanks(StudyReading& reading) {
   }
 }
 
-/// Gears that can mesh in every scene: no tip in the mate's root, and a common face.
+/// The total contact ratio of a pair whose axes are further apart by a distance [mm]; 0 where the tips do not reach each other.
+double contact_ratio_at(const PairData& data, double centre_distance) {
+  PairData apart = data;
+  apart.centre_distance = centre_distance;
+  try {
+    return make_gear_pair(apart).total_contact_ratio();
+  } catch (const InvalidInput&) {
+    return 0.0;
+  }
+}
+
+/// Gears that can mesh in every scene: no tip in the mate's root, axes that are not too far apart, and a common face.
 void check_scene_placements(StudyReading& reading) {
   if (!reading.problems.empty()) return;
   const Study& study = reading.builder.study;
@@ -232,6 +243,11 @@ void check_scene_placements(StudyReading& reading) {
       refuse("misalignment.centre_distance", of.centre_distance,
              "above " + in_words(least) + " mm, where the " + name_of(m) + "'s tip meets the mate's root circle");
       break;
+    }
+    if (of.centre_distance > 0.0 && contact_ratio_at(study.pair, pair.centre_distance + of.centre_distance) < 1.0) {
+      refuse("misalignment.centre_distance", of.centre_distance,
+             "one that leaves a total contact ratio of at least 1 (it is " + in_words(pair.total_contact_ratio()) + " at " +
+                 in_words(pair.centre_distance) + " mm)");
     }
     constexpr double least_share = 0.01;  // of the narrower face, which both have in common
     const FaceRange &one = pair.pinion.face, &other = pair.wheel.face;

@@ -74,6 +74,15 @@ InfluenceTable::LocalStation InfluenceTable::local_station(const FlankStation& s
   return local;
 }
 
+namespace {
+
+/// A row of a grid, along zeta, as far as stations read it.
+struct GridSpan {
+  Eigen::Index begin, end;
+};
+
+}  // namespace
+
 Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) const {
   std::vector<LocalStation> stations;
   std::map<int, std::vector<std::size_t>> of_tooth;
@@ -81,6 +90,17 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) c
     stations.push_back(local_station(points[i]));
     of_tooth[points[i].tooth].push_back(i);
   }
+  // Points of a tooth lie on a line, which needs a few of the grid's deflections only.
+  const auto spans_of = [&](const std::vector<std::size_t>& of) {
+    std::map<Eigen::Index, GridSpan> spans;  // by their row
+    for (const std::size_t i : of) {
+      for (const Eigen::Index first : stations[i].rows) {
+        GridSpan& span = spans.try_emplace(first / std::ssize(grid_.zetas()), GridSpan{first, first + 4}).first->second;
+        span = {std::min(span.begin, first), std::max(span.end, first + 4)};
+      }
+    }
+    return spans;
+  };
   Eigen::MatrixXd result(std::ssize(points), std::ssize(points));
   Eigen::VectorXd deflection(grid_.size());
   for (const auto& [loaded, columns] : of_tooth) {
@@ -90,14 +110,17 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) c
         throw InvalidInput("place.tooth", std::to_string(loaded - tooth) + " pitches apart", "at most " + std::to_string(teeth_apart()));
       }
       const Eigen::MatrixXd& table = coefficients_[static_cast<std::size_t>(loaded - tooth)];
+      const std::map<Eigen::Index, GridSpan> spans = spans_of(rows);
       for (const std::size_t q : columns) {
         const LocalStation& force = stations[q];
-        deflection.setZero();
-        for (int k = 0; k < 4; ++k) {
-          const double* first = table.col(force.rows[static_cast<std::size_t>(k)]).data();
-          const Eigen::Vector4d factors = force.along_u[k] * force.along_zeta;
-          add_four_columns({first, first + grid_.size(), first + 2 * grid_.size(), first + 3 * grid_.size()},
-                           {factors[0], factors[1], factors[2], factors[3]}, grid_.size(), deflection.data());
+        for (const auto& [row, span] : spans) {
+          deflection.segment(span.begin, span.end - span.begin).setZero();
+          for (int k = 0; k < 4; ++k) {
+            const double* first = table.col(force.rows[static_cast<std::size_t>(k)]).data() + span.begin;
+            const Eigen::Vector4d factors = force.along_u[k] * force.along_zeta;
+            add_four_columns({first, first + grid_.size(), first + 2 * grid_.size(), first + 3 * grid_.size()},
+                             {factors[0], factors[1], factors[2], factors[3]}, span.end - span.begin, deflection.data() + span.begin);
+          }
         }
         for (const std::size_t p : rows) {
           if (tooth == loaded && p > q) break;

@@ -12,7 +12,7 @@ namespace flankwright {
 /// @tparam PerOrder  of one with a number for each order of the mesh frequency, 1 .. 10
 template <class Single, class PerOrder>
 struct CycleValues {
-  Single te_peak_to_peak = nothing();      ///< of f_t over the positions [mm]
+  Single te_peak_to_peak = nothing();      ///< of f_t over the positions [mm]; NaN of one
   PerOrder te_harmonics{};                 ///< amplitudes [mm]; empty: none
   Single te_mean = nothing();              ///< [mm]
   Single peak_line_load = nothing();       ///< [N/mm]

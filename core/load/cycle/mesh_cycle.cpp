@@ -291,7 +291,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
   CycleSummary summary;
   if (!cycle.usable() || cycle.positions.empty()) return summary;
   const Eigen::VectorXd te = cycle.transmission_error();
-  summary.te_peak_to_peak = te.maxCoeff() - te.minCoeff();
+  if (te.size() > 1) summary.te_peak_to_peak = te.maxCoeff() - te.minCoeff();
   summary.te_mean = te.mean();
   summary.te_harmonics = harmonic_amplitudes({te.begin(), te.end()});
   summary.peak_line_load = summary.peak_contact_stress = summary.worst_kkt_residual = 0.0;

@@ -1,6 +1,7 @@
 #include "studies/tasks/analyse/analyse_keys.hpp"
 
 #include "studies/study_file/key_rows.hpp"
+#include "studies/study_file/left_out_effects.hpp"
 
 namespace flankwright::studies {
 
@@ -46,6 +47,15 @@ void read_gradients(StudyReading& reading) {
     }
     const Quantity quantity = known->second->quantity;
     reading.builder.study.gradients.push_back({known->first, *parameter, std::string(default_unit(quantity)), internal_value(1.0, quantity)});
+  }
+}
+
+void check_gradients(StudyReading& reading) {
+  const Study& study = reading.builder.study;
+  for (const GradientParameter& p : study.gradients) require_effect_of(reading, "analyse.gradients", p.path);
+  if (!study.gradients.empty() && study.fidelity.compliance == ComplianceModel::Rigid) {
+    reading.refuse_key("analyse.gradients",
+                       "none with a rigid compliance, which has no loaded contact: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
 }
 

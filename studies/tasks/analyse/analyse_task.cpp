@@ -13,6 +13,7 @@ const Task analyse_task{.name = "analyse",
                         .one_design = true,
                         .keys = analyse_keys,
                         .read = read_gradients,
+                        .check = check_gradients,
                         .run = [](StudyRun& run) { run.analyse(); },
                         .summary = analysis_table,
                         .study_template = analyse_template};

@@ -9,6 +9,7 @@
 #include "optimize/solvers/solver.hpp"
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
+#include "studies/study_file/left_out_effects.hpp"
 #include "studies/study_file/study_life.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
 
@@ -154,6 +155,7 @@ void check_optimise(StudyReading& reading) {
   const Match* variables = reading.find("optimise.variables");
   const bool has_entry = variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
   if (!has_entry) reading.refuse_key("optimise.variables", "task \"optimise\" needs at least one variable");
+  for (const DesignVariable& v : study.table<OptimiseTable>().variables) require_effect_of(reading, "optimise.variables." + v.path, v.path);
   if (!study.table<OptimiseTable>().constraints.empty() && !accepts_constraints(study.table<OptimiseTable>().solver.name)) {
     reading.refuse_key("optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
   }

@@ -6,6 +6,7 @@
 #include "optimize/sampling/sobol_sequence.hpp"
 #include "studies/study_file/study_items.hpp"
 #include "studies/study_file/distribution_reading.hpp"
+#include "studies/study_file/left_out_effects.hpp"
 #include "studies/tasks/sweep/sweep_design.hpp"
 #include "studies/tasks/sweep/sweep_table.hpp"
 
@@ -149,6 +150,9 @@ void check_sweep(StudyReading& reading) {
     if (is_swept(study.table<SweepTable>(), keys.first) && is_swept(study.table<SweepTable>(), keys.second)) {
       return reading.refuse_key("sweep.parameters." + keys.second, "overlaps the parameter " + keys.first + "; allowed is one of them");
     }
+  }
+  for (const SweepParameter& p : reading.builder.study.table<SweepTable>().parameters) {
+    require_effect_of(reading, "sweep.parameters." + p.path, p.path);
   }
   check_design(reading);
   if (reading.problems.empty()) set_nominal(reading);

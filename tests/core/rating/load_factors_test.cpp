@@ -5,6 +5,8 @@
 #include <set>
 
 #include "core/contact/gap/plane_of_action_gap.hpp"
+#include "core/flank/measured_grid.hpp"
+#include "core/rating/iso_load_factors.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
@@ -67,6 +69,48 @@ TEST_CASE("Every modification parameter belongs to one part", "[core][load][load
     CHECK(lead + profile + (named.flank_class == ModificationClass::Topography) == 1);
     CHECK((perfect_part(condition) == FlankCondition{}));
   }
+}
+
+TEST_CASE("A measured flank has its lead and its profile in the parts that amounts have them in", "[core][load][load-factors][grid]") {
+  // Spur, so that amounts and what a machine measures are along one line; the spline goes through straight lines to round-off.
+  constexpr double round_off = 1e-13;  // mm
+  const GearPair gears = mesh_cases::pair(21, 43, 0, 2.5, 22);
+  const Gear& pinion = gears.pinion;
+  const auto measured = [&](double slope_along_face, double slope_along_profile) {
+    MeasuredGrid grid;
+    for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+      const double start = pinion.roll_length_at(pinion.active_root_radius), end = pinion.roll_length_at(pinion.tip_form_radius);
+      grid.radii.push_back(std::hypot(pinion.base_radius, std::lerp(start, end, share)));
+      grid.z.push_back(22.0 * (share - 0.5));
+    }
+    grid.deviation.resize(5, 5);
+    for (Eigen::Index i = 0; i < 5; ++i) {
+      const double along = pinion.roll_length_at(grid.radii[static_cast<std::size_t>(i)]) - pinion.roll_length_at(grid.radii[2]);
+      for (Eigen::Index j = 0; j < 5; ++j)
+        grid.deviation(i, j) = slope_along_face * grid.z[static_cast<std::size_t>(j)] + slope_along_profile * along;
+    }
+    return make_grid_field(grid, pinion.base_radius, gears.base_helix_angle).field;
+  };
+  FlankCondition by_grid, by_amount;
+  by_grid.modification.pinion.topography = measured(-20 * units::um / 22.0, 8 * units::um / 5.0);
+  by_amount.modification.pinion.lead_slope = 20 * units::um;
+  const MeshModel model = mesh_of(gears)({0.3});
+  const std::vector<ContactPoint>& points = model.positions[0].points;
+  const auto error = [&](const FlankCondition& c) { return plane_of_action_gap(gears, points, c).error; };
+  CHECK((error(lead_part(by_grid)) - error(by_amount)).cwiseAbs().maxCoeff() < round_off);
+  CHECK(lead_part(by_grid) == lead_part(by_grid));  // peaks of a part are sought once
+  FlankCondition profile;
+  profile.modification.pinion.topography = measured(0.0, 8 * units::um / 5.0);
+  CHECK((error(profile_part(by_grid)) - error(profile)).cwiseAbs().maxCoeff() < round_off);
+  CHECK(error(lead_part(profile)).cwiseAbs().maxCoeff() < round_off);
+  // Errors of single teeth alike; ISO's deviations are those of the amounts.
+  FlankCondition errors;
+  errors.error.pinion.topographies = {nullptr, by_grid.modification.pinion.topography};
+  const IsoDeviations iso = iso_deviations(gears, errors), of_slope = iso_deviations(gears, by_amount);
+  CHECK(iso.misalignment == Approx(of_slope.misalignment).epsilon(1e-9));
+  CHECK(iso.misalignment == Approx(20 * units::um).epsilon(1e-9));
+  CHECK(iso.base_pitch == Approx(8 * units::um / 5.0 * (gears.path_end - gears.path_start)).epsilon(1e-9));
+  CHECK(iso_deviations(gears, by_grid).base_pitch == 0.0);  // a modification is no error
 }
 
 TEST_CASE("Factors of a perfect pair are 1, those of a lead deviation are all its own", "[core][load][load-factors]") {

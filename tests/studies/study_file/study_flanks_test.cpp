@@ -67,6 +67,13 @@ const std::string grid_table = "[pinion.modification]\ngrid = \"flank.csv\"\n";
 
 }  // namespace
 
+TEST_CASE("A process is a word, or a table with its kind", "[studies][grinding]") {
+  CHECK(read("[pinion.process]\nkind = \"form_grinding\"\n").modification.pinion.process.kind == GrindingKind::FormGrinding);
+  CHECK(read("", {{"wheel.process", "generating_grinding"}}).modification.wheel.process.kind == GrindingKind::GeneratingGrinding);
+  CHECK(read().modification.pinion.process.kind == GrindingKind::None);
+  CHECK(problem_of("[pinion.process]\nkind = \"grinding\"\n").key == "pinion.process.kind");
+}
+
 TEST_CASE("The predesigned parabola is read in arcsec per square degree or 1/rad, for either gear, and may be a variable", "[studies][study-file]") {
   // 1 arcsec/deg^2 = (pi/648000) / (pi/180)^2 rad^-1 = 1/(20 pi) rad^-1.
   const double one = 1.0 / (20.0 * std::acos(-1.0));

@@ -81,9 +81,36 @@ TEST_CASE("A scene in which gears cannot mesh is refused at its line", "[studies
   CHECK(close.key == "scenes.1.misalignment.centre_distance");
   CHECK(close.line == 16);
   CHECK_THAT(close.allowed, Catch::Contains("tip meets the mate's root circle"));
-  CHECK_NOTHROW(read("[misalignment]\ncentre_distance = -0.5\n"));                                // addendum 1, dedendum 1.25: 1 mm of clearance
+  CHECK_NOTHROW(read("[misalignment]\ncentre_distance = -0.5\n"));  // addendum 1, dedendum 1.25: 1 mm of clearance
+  // Module 4 at 20 deg of helix, b = 40: the overlap alone is 1.09, until tips pass each other at a distance of 8 mm more.
+  const StudyProblem apart = problem_of("[misalignment]\ncentre_distance = 9\n");
+  CHECK(apart.key == "misalignment.centre_distance");
+  CHECK_THAT(apart.allowed, Catch::Contains("total contact ratio of at least 1"));
+  CHECK_NOTHROW(read("[misalignment]\ncentre_distance = 2\n"));
+  CHECK(problem_of("[misalignment]\ncentre_distance = 5\n", {{"pair.helix_angle", "0"}}).key == "misalignment.centre_distance");
   CHECK(problem_of("[misalignment]\naxial_offset = 39.9\n").key == "misalignment.axial_offset");  // of faces of 40 mm
   CHECK_NOTHROW(read("[misalignment]\naxial_offset = 39\n"));
+}
+
+TEST_CASE("What a study varies or differentiates by must act", "[studies][study-file][effects]") {
+  const std::string listed = "[load]\ntorque = 300\n[fidelity]\ncompliance = \"thin_slice\"\neffects = [\"bending\", \"hertzian_contact\", \"";
+  const std::string misalignment = listed + "misalignment\"]\n", modifications = listed + "modifications\"]\n";
+  const auto left_out = [](const std::string& effect) { return Catch::Contains("fidelity.effects leaves \"" + effect + "\" out"); };
+  const std::string variables =
+      "[optimise]\nobjective = \"peak_contact_stress\"\n[optimise.variables]\n\"pinion.modification.lead_crowning\" = [0, 30]\n";
+  CHECK_THAT(problem_of(misalignment + variables, {{"task", "optimise"}}).allowed, left_out("modifications"));
+  CHECK_NOTHROW(read(modifications + variables, {{"task", "optimise"}}));
+  CHECK_NOTHROW(read(misalignment + variables));  // of a task that varies nothing
+  const std::string parameters =
+      "[sweep]\nsamples = 16\n[sweep.parameters]\n\"misalignment.mesh_misalignment\" = { normal = [0, 6] }\n\"load.torque\" = { uniform = [200, 300] }\n";
+  const StudyProblem swept = problem_of(modifications + parameters, {{"task", "sweep"}});
+  CHECK(swept.key == "sweep.parameters.misalignment.mesh_misalignment");
+  CHECK_THAT(swept.allowed, left_out("misalignment"));
+  CHECK_NOTHROW(read(misalignment + parameters, {{"task", "sweep"}}));
+  const std::string gradients = "[analyse]\ngradients = [\"pinion.modification.lead_crowning\", \"misalignment.crossing\", \"load.torque\"]\n";
+  CHECK(problems_of(small_study + misalignment + gradients).size() == 1);
+  CHECK(problems_of(small_study + modifications + gradients).size() == 1);
+  CHECK_THAT(problem_of(gradients, {{"fidelity.compliance", "rigid"}}).allowed, Catch::Contains("no loaded contact"));
 }
 
 TEST_CASE("Lines of contact of a spur pair cut off no corner for a triangular relief", "[studies][study-file]") {
