@@ -246,7 +246,7 @@ void check_scene_placements(StudyReading& reading) {
     }
     if (of.centre_distance > 0.0 && contact_ratio_at(study.pair, pair.centre_distance + of.centre_distance) < 1.0) {
       refuse("misalignment.centre_distance", of.centre_distance,
-             "one that leaves a total contact ratio of at least 1 (it is " + in_words(pair.total_contact_ratio()) + " at " +
+             "one that leaves a total contact ratio of at least 1 (without it, it is " + in_words(pair.total_contact_ratio()) + " at " +
                  in_words(pair.centre_distance) + " mm)");
     }
     constexpr double least_share = 0.01;  // of the narrower face, which both have in common

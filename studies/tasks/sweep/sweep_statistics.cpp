@@ -173,6 +173,7 @@ std::string index_warning(const SweepStatistics& statistics) {
   }
   if (!has_indices) return {};
   if (statistics.blocks < 2) return "The Sobol indices need two blocks of samples at least: set sweep.samples higher, or sweep.indices = \"off\".";
+  if (widest == 0.0) return "No output scatters: none of the parameters has an influence, and the Sobol indices mean nothing.";
   if (widest <= wide && statistics.blocks >= fewest_index_blocks) return {};
   const double needed = std::max(static_cast<double>(statistics.blocks) * (widest / wide) * (widest / wide), 1.0 * fewest_index_blocks);
   return fmt::format(

@@ -193,7 +193,7 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
   }
   CHECK(gradient.misalignment[4] == 0);  // tip relief is no lead
   // Shafts whose f_sh grows with the first parameter as the misalignment itself: all that follows from it grows twice as fast.
-  ShaftMisalignment shafts{0.0, Eigen::RowVectorXd::Unit(std::ssize(parameters), 0)};
+  ShaftMisalignment shafts{0.0, gradient.misalignment[0] * Eigen::RowVectorXd::Unit(std::ssize(parameters), 0)};
   const IsoGradient with_shafts = iso_gradient(model, condition, here, analyse_cycle(model, condition, torque, parameters), parameters, shafts);
   CHECK(with_shafts.misalignment[0] == Approx(2 * gradient.misalignment[0]).epsilon(1e-12));
   CHECK(with_shafts.lead[0] == Approx(2 * gradient.lead[0]).epsilon(1e-12));
