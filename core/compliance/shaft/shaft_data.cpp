@@ -88,7 +88,7 @@ std::optional<InvalidInput> find_matrix_problem(const ShaftBearing& bearing) {
     return problem(
         "not positive definite",
         "a matrix that is positive definite, to the seventh digit, where its rows are not 0: no motion without force. A bearing that does not "
-        "resist tilting has its position where it tilts about, and rows of 0 for the moments");
+        "resist tilting is given at the centre of its tilting, with rows of 0 for the moments");
   }
   return std::nullopt;
 }
