@@ -103,7 +103,7 @@ TEST_CASE("An output of tip edges needs the effect that has it", "[studies][opti
     const std::string limit = std::string("[optimise.constraints]\n\"") + output + "\" = { max = 0.5 }\n";
     CHECK_NOTHROW(read(limit, task));
     std::vector<Override> without = task;
-    without.push_back({"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"extended_contact_region\"]"});
+    without.push_back({"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"extended_contact_region\", \"modifications\"]"});
     CHECK_THAT(problem_of(limit, without).allowed, Contains("needs the effect edge_contact"));
   }
 }
