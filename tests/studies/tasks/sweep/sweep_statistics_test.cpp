@@ -109,7 +109,10 @@ TEST_CASE("Sobol indices of few blocks come with their confidence and a warning"
   CHECK(ratio == Approx(std::sqrt(409.6)).epsilon(0.5));  // statistical: the error of ten blocks is uncertain itself
   CHECK(index_confidence(0.1) == Approx(0.196));
   const Study still = parse_study(small::sweep("samples = 50"), "s.toml");
-  CHECK_THAT(index_warning(statistics_of(still, [](long long, const auto&) { return SampleResult{"", {2.0, 1.0}}; })),
+  CHECK_THAT(index_warning(statistics_of(still,
+                                         [](long long, const auto&) {
+                                           return SampleResult{"", {2.0, 1.0}};
+                                         })),
              Catch::Contains("No output scatters"));
   const Study plain = parse_study(small::sweep("samples = 40\nindices = \"off\""), "s.toml");
   CHECK(index_warning(statistics_of(plain, [](long long, const auto& v) { return SampleResult{"", {v[0], 1.0}}; })).empty());
