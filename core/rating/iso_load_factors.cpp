@@ -34,7 +34,7 @@ Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, con
   return plane_of_action_gap(pair, stations, condition).error / std::cos(pair.base_helix_angle);
 }
 
-/// Both ends of the common face, which end roundings count to.
+/// Both ends of the common face, end roundings included.
 std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& condition, int tooth) {
   const double offset = condition.misalignment.axial_offset;  // of the wheel
   const double of_pinion = 0.5 * pair.pinion.data.face_width, of_wheel = 0.5 * pair.wheel.data.face_width;
