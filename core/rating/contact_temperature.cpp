@@ -17,7 +17,7 @@ double flash_temperature(const GearPair& pair, double contact_modulus, const Con
   const auto [v_1, v_2] = rolling_speeds(pair, point, condition.speed);
   if (!(line_load > 0.0) || !(v_1 + v_2 > 0.0)) return 0.0;
   const double E_r = 2.0 * contact_modulus, rho = point.relative_radius;
-  const double p = std::sqrt(line_load * contact_modulus / (units::pi * rho));
+  const double p = std::sqrt(condition.overload * line_load * contact_modulus / (units::pi * rho));
   // Of the uniform source, with w = 2 pi rho p^2 / E_r and 2 b_H = 8 rho p / E_r.
   const double uniform = std::sqrt(units::pi) / 2.0 * condition.friction * 1e6 * p * std::abs(v_1 - v_2) /
                          (thermal_contact_coefficient * (std::sqrt(v_1) + std::sqrt(v_2))) * std::sqrt(8.0 * rho * p / (1000.0 * E_r));

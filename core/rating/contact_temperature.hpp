@@ -16,11 +16,11 @@ enum class HeatSource {
 ///     theta_fl = X mu_m w |v_1 - v_2| / (B_M (sqrt(v_1) + sqrt(v_2)) sqrt(2 b_H))                        [K]
 ///
 /// with the line load w, Hertz's half width b_H, v = omega rho_t of either flank and B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. Both flanks are as hot as
-/// each other where they leave the band, and so fast that heat goes nowhere but inwards. w is the local load itself, so the factors of load sharing, face load and
-/// dynamics are 1 [ISO/TS 6336-20 multiplies a nominal load by them]. The speeds are those of the transverse section, as the standard takes them for cylindrical gears:
+/// each other where they leave the band, and so fast that heat goes nowhere but inwards. w is the local load times K_A K_v, so the factors of load sharing and face
+/// load are 1 [ISO/TS 6336-20 multiplies a nominal load by them]. The speeds are those of the transverse section, as the standard takes them for cylindrical gears:
 /// across the inclined lines of a helical gear they are cos(beta_b) times as high, for which theta_fl would be 1/sqrt(cos(beta_b)) times as large.
 /// @param line_load  [N/mm], >= 0
-/// @param condition  speed and friction, from film_condition(); friction is the mesh's mean one
+/// @param condition  speed, overload and friction, from film_condition(); friction is the mesh's mean one
 /// @return           0 without load or at a standstill
 double flash_temperature(const GearPair& pair, double contact_modulus, const ContactPoint& point, double line_load, const FilmCondition& condition,
                          HeatSource source);

@@ -39,8 +39,9 @@ Eigen::VectorXd contact_damage(const MeshModel& model, const LoadSpectrum& spect
   Eigen::VectorXd damage = Eigen::VectorXd::Zero(std::ssize(model.positions[position].points));
   for (const SpectrumCase& load_case : spectrum) {
     const double cycles = load_cycles(model.pair, member, load_case.operation);
+    const SnCurve of_case = curve.of_stress_times(load_case.operation.contact_overload());
     const Eigen::VectorXd& stress = load_case.cycle->positions[position].contact_stress;
-    for (Eigen::Index j = 0; j < damage.size(); ++j) damage[j] += cycles * curve.damage(stress[j]).value;
+    for (Eigen::Index j = 0; j < damage.size(); ++j) damage[j] += cycles * of_case.damage(stress[j]).value;
   }
   return damage;
 }
@@ -51,7 +52,8 @@ DamageSum contact_damage_at(const MeshModel& model, const LoadSpectrum& spectrum
   for (const SpectrumCase& load_case : spectrum) {
     const LoadedPosition& there = load_case.cycle->positions[position];
     const bool has_slopes = there.contact_stress_derivative.cols() > 0;
-    add(sum, curve, load_cycles(model.pair, member, load_case.operation), there.contact_stress[point],
+    const SnCurve of_case = curve.of_stress_times(load_case.operation.contact_overload());
+    add(sum, of_case, load_cycles(model.pair, member, load_case.operation), there.contact_stress[point],
         has_slopes ? Eigen::RowVectorXd(there.contact_stress_derivative.row(point)) : Eigen::RowVectorXd());
   }
   return sum;
@@ -80,7 +82,8 @@ Eigen::VectorXd root_damage(const MeshModel& model, const LoadSpectrum& spectrum
   Eigen::VectorXd damage = Eigen::VectorXd::Zero(points.count);
   for (const SpectrumCase& load_case : spectrum) {
     const double cycles = load_cycles(model.pair, member, load_case.operation);
-    for (Eigen::Index p = 0; p < points.count; ++p) damage[p] += cycles * curve.damage(largest_at(*load_case.cycle, points, p).stress).value;
+    const SnCurve of_case = curve.of_stress_times(load_case.operation.overload());
+    for (Eigen::Index p = 0; p < points.count; ++p) damage[p] += cycles * of_case.damage(largest_at(*load_case.cycle, points, p).stress).value;
   }
   return damage;
 }
@@ -95,7 +98,7 @@ DamageSum root_damage_at(const MeshModel& model, const LoadSpectrum& spectrum, M
     Eigen::RowVectorXd slope;
     if (has_slopes && largest.station >= 0) slope = root_stress_derivative(model.positions[largest.position], there, largest.station);
     if (has_slopes && largest.station < 0) slope = Eigen::RowVectorXd::Zero(there.line_load_derivative.cols());
-    add(sum, curve, load_cycles(model.pair, member, load_case.operation), largest.stress, slope);
+    add(sum, curve.of_stress_times(load_case.operation.overload()), load_cycles(model.pair, member, load_case.operation), largest.stress, slope);
   }
   return sum;
 }

@@ -19,7 +19,7 @@ struct FatigueStrength {
 /// One load case of a spectrum. All load cases of a spectrum have the same mesh model.
 struct SpectrumCase {
   const LoadedCycle* cycle{nullptr};  ///< usable()
-  Operation operation{};              ///< its revolutions, and how often teeth are loaded in each
+  Operation operation{};              ///< its revolutions, how often teeth are loaded in each, and its load factors
 };
 using LoadSpectrum = std::vector<SpectrumCase>;
 
@@ -34,7 +34,7 @@ struct DamageSum {
 ///
 ///     D = sum_k n_k / N(sigma_k),     n_k = load cycles of the gear's teeth
 ///
-/// with the local contact stress sigma_k there. A line of contact passes a point of the flank once in a revolution, at one phase and on one tooth pair: the
+/// with the local contact stress there, times sqrt(K_A K_v), as sigma_k. A line of contact passes a point of the flank once in a revolution, at one phase and on one tooth pair: the
 /// points of all positions of a cycle are different points of the flank, and the stress of a point in all load cases stands at the same index.
 Eigen::VectorXd contact_damage(const MeshModel& model, const LoadSpectrum& spectrum, Member member, const SnCurve& curve, std::size_t position);
 /// The same at one point, with its derivatives.
@@ -54,7 +54,7 @@ struct FilletPoints {
 FilletPoints fillet_points(const MeshModel& model, Member member);
 
 /// Damage of one gear's root at every point of its fillet. A tooth that passes through the mesh has one load cycle, of the largest stress at that point over all
-/// positions and teeth; the stress between teeth in mesh counts as none, and compression on the way is left out.
+/// positions and teeth, times K_A K_v; the stress between teeth in mesh counts as none, and compression on the way is left out.
 /// @throws std::runtime_error where a cycle has no root stress
 Eigen::VectorXd root_damage(const MeshModel& model, const LoadSpectrum& spectrum, Member member, const SnCurve& curve, const FilletPoints& points);
 /// The same at one point; the derivative of a largest stress is that of the position where it is.

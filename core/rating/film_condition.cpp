@@ -12,7 +12,8 @@ constexpr double metre = 1e3;  // in mm
 
 double mean_friction(const GearPair& pair, double face_width, double force, const Lubricant& lubricant, const FilmCondition& condition) {
   const double v_sum = 2.0 * condition.speed * pair.pitch_point / metre, rho = pitch_point_radius(pair);
-  const double F_bt = force * std::cos(pair.base_helix_angle), eta = 1e3 * lubricant.dynamic_viscosity(condition.oil_temperature).value;
+  const double F_bt = condition.overload * force * std::cos(pair.base_helix_angle),
+               eta = 1e3 * lubricant.dynamic_viscosity(condition.oil_temperature).value;
   double X_L = 1.0;
   if (lubricant.base == BaseOil::Polyalphaolefin) X_L = 0.8;
   if (lubricant.base == BaseOil::Polyglycol) X_L = 0.75 * std::pow(6.0 / v_sum, 0.2);

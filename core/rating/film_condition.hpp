@@ -12,6 +12,7 @@ struct FilmCondition {
   double bulk_temperature{not_given};  ///< theta_M of the teeth [deg C]
   double friction{not_given};          ///< mu_m, mean coefficient of the mesh [-]
   double roughness{not_given};         ///< Ra, mean of both flanks [um], > 0
+  double overload{1.0};                ///< K_A K_v, by which line loads are multiplied [-], >= 1
 };
 
 /// Bulk temperature of the teeth [ISO/TR 15144-1:2014, method B],
@@ -20,12 +21,12 @@ struct FilmCondition {
 ///
 /// with P in kW, a and b in mm; X_Ca = 1, as without tip relief, which gives the highest temperature, and X_S = 1.2 of injected oil. H_v is Ohlendorf's. Mean friction
 ///
-///     mu_m = 0.045 (F_bt / (b v_SigmaC rho_nC))^0.2 (1000 eta_oil)^-0.05 X_L 2.2 (Ra/rho_nC)^0.25
+///     mu_m = 0.045 (K_A K_v F_bt / (b v_SigmaC rho_nC))^0.2 (1000 eta_oil)^-0.05 X_L 2.2 (Ra/rho_nC)^0.25
 ///
-/// with all load factors 1, since local pressures have the load's distribution, and X_L = 1 of mineral oils, 0.8 of polyalphaolefins, 0.75 (6/v_SigmaC)^0.2 of
+/// without factors of load distribution, which local pressures have in them, and X_L = 1 of mineral oils, 0.8 of polyalphaolefins, 0.75 (6/v_SigmaC)^0.2 of
 /// polyglycols.
 /// @param force  normal to the flanks [N], > 0
-/// @param given  speed, oil_temperature and roughness; a bulk_temperature that is given is kept
+/// @param given  speed, oil_temperature, roughness and overload; a bulk_temperature that is given is kept
 FilmCondition film_condition(const GearPair& pair, double face_width, double force, const Lubricant& lubricant, FilmCondition given);
 
 /// Speeds of the flanks at a contact point, along the profile in the transverse section [m/s].

@@ -12,7 +12,7 @@ LocalFilm local_film(const GearPair& pair, double contact_modulus, const Contact
   const auto [v_1, v_2] = rolling_speeds(pair, point, condition.speed);
   if (!(line_load > 0.0) || !(v_1 + v_2 > 0.0)) return film;
   const double E_r = 2.0 * contact_modulus, rho = point.relative_radius;
-  const double p = std::sqrt(line_load * contact_modulus / (units::pi * rho));
+  const double p = std::sqrt(condition.overload * line_load * contact_modulus / (units::pi * rho));
   film.flash_temperature = flash_temperature(pair, contact_modulus, point, line_load, condition, HeatSource::Uniform);
   const double theta_B = condition.bulk_temperature + film.flash_temperature;
   const Lubricant::Property alpha = lubricant.pressure_viscosity(condition.bulk_temperature), alpha_B = lubricant.pressure_viscosity(theta_B);

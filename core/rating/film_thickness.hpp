@@ -19,7 +19,7 @@ struct LocalFilm {
 ///     W      = 2 pi p^2 / E_r^2                        S = alpha(theta_B) eta(theta_B) / (alpha(theta_M) eta(theta_M))
 ///     theta_B = theta_M + theta_fl,   theta_fl = sqrt(pi)/2 mu_m 1e6 p |v_g| / (B_M (sqrt(v_r1) + sqrt(v_r2))) sqrt(8 rho_n p/(1000 E_r))
 ///
-/// p is Hertz's pressure of the line load on the flank: that on a tip edge, whose radius is another, is no part of it. v_r = omega rho_t of either flank, v_g their
+/// p is Hertz's pressure of the line load times K_A K_v on the flank, p_dyn of the standard: that on a tip edge, whose radius is another, is no part of it. v_r = omega rho_t of either flank, v_g their
 /// difference, v_Sigma their sum [m/s]. B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. h is Dowson's and Higginson's line contact with the sliding factor S, and
 /// theta_fl Blok's uniform source over Hertz's width, 1.6 % above the flash temperature of scuffing: see flash_temperature().
 LocalFilm local_film(const GearPair& pair, double contact_modulus, const ContactPoint& point, double line_load, const Lubricant& lubricant,

@@ -15,6 +15,13 @@ struct Operation {
   /// The same teeth stay in mesh: each load cycle is one of both gears' teeth, and `revolutions` is their number.
   bool same_teeth{false};
   PerGear<int> meshes_per_revolution{1, 1};  ///< how many mates load this flank of each gear, all as much as the pair's [-], >= 1
+  double application_factor{1.0};            ///< K_A [ISO 6336-6] [-], >= 1
+  double dynamic_factor{1.0};                ///< K_v [ISO 6336-1] [-], >= 1
+
+  /// K_A K_v, by which a rating multiplies the loads of the nominal torque [-].
+  double overload() const { return application_factor * dynamic_factor; }
+  /// By which it multiplies their contact stress, which is Hertz's [ISO 6336-2, sigma_H; ISO/TS 6336-22, p_dyn of method A] [-].
+  double contact_overload() const { return std::sqrt(overload()); }
 };
 
 /// Load cycles of each tooth of a gear: its contacts under load [ISO 6336-2:2006, N_L of the life factor]. Teeth that stay in mesh have as many as those of the

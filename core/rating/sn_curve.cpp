@@ -67,6 +67,13 @@ SnCurve::Damage SnCurve::damage(double stress) const {
   return {value, p * value / stress};
 }
 
+SnCurve SnCurve::of_stress_times(double factor) const {
+  SnCurve curve = *this;
+  curve.limit /= factor;
+  curve.static_limit /= factor;
+  return curve;
+}
+
 std::string_view to_string(LifeFactors kind) {
   switch (kind) {
     case LifeFactors::ThroughHardened:

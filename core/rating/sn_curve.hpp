@@ -35,6 +35,10 @@ struct SnCurve {
   };
   /// Of one load cycle; 0 without stress.
   Damage damage(double stress) const;
+
+  /// The curve of a stress that acts `factor` times as large as it is counted: both its limits over the factor.
+  /// @param factor  [-], > 0
+  SnCurve of_stress_times(double factor) const;
 };
 
 /// Materials and heat treatments whose life factors ISO 6336 gives.

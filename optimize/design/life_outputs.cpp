@@ -67,6 +67,7 @@ Film film_of(const ObjectiveTerm& term, const LoadedScene& scene) {
   condition.oil_temperature = std::isnan(scene.operation->temperature) ? life.lubricant->temperature : scene.operation->temperature;
   condition.bulk_temperature = life.bulk_temperature;
   condition.roughness = life.roughness;
+  condition.overload = scene.operation->overload();
   const MeshModel& model = scene.model;
   return {*life.lubricant, film_condition(model.pair, model.face_width, scene.cycle.force, *life.lubricant, condition)};
 }

@@ -14,30 +14,34 @@ constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 
 const LoadedPosition& at(const LoadedScene& scene, int position) { return scene.cycle.positions[static_cast<std::size_t>(position)]; }
 
-/// The stress that a gear bears in a load case; infinite where the study gives it no curve [MPa].
-double borne(const std::optional<SnCurve>& curve, const LoadedScene& scene, Member member) {
+/// The stress of the nominal load that a gear bears in a load case; infinite where the study gives it no curve [MPa].
+/// @param overload  of the stress under the load's factors
+double borne(const std::optional<SnCurve>& curve, const LoadedScene& scene, Member member, double overload) {
   if (!curve) return std::numeric_limits<double>::infinity();
   const double cycles = scene.operation != nullptr ? load_cycles(scene.model.pair, member, *scene.operation) : not_given;
-  return curve->stress_borne(cycles);
+  return curve->of_stress_times(overload).stress_borne(cycles);
 }
 
 /// Of both gears.
-PerGear<double> borne(const ObjectiveTerm& term, const LoadedScene& scene, std::optional<SnCurve> FatigueStrength::*kind, const char* key) {
+PerGear<double> borne(const ObjectiveTerm& term, const LoadedScene& scene, std::optional<SnCurve> FatigueStrength::*kind, double overload,
+                      const char* key) {
   PerGear<double> stress{not_given, not_given};
   for (const Member m : both_gears) {
-    stress[m] = scene.life != nullptr ? borne(scene.life->strength[m].*kind, scene, m) : std::numeric_limits<double>::infinity();
+    stress[m] = scene.life != nullptr ? borne(scene.life->strength[m].*kind, scene, m, overload) : std::numeric_limits<double>::infinity();
   }
   if (std::isinf(stress.pinion) && std::isinf(stress.wheel)) throw InvalidInput(term.name, "no S-N curve", key);
   return stress;
 }
 
 double borne_by_flanks(const ObjectiveTerm& term, const LoadedScene& scene) {
-  const PerGear<double> stress = borne(term, scene, &FatigueStrength::contact, "material.contact_endurance_limit");
+  const double overload = scene.operation != nullptr ? scene.operation->contact_overload() : 1.0;
+  const PerGear<double> stress = borne(term, scene, &FatigueStrength::contact, overload, "material.contact_endurance_limit");
   return std::min(stress.pinion, stress.wheel);
 }
 
 PerGear<double> borne_by_fillets(const ObjectiveTerm& term, const LoadedScene& scene) {
-  return borne(term, scene, &FatigueStrength::root, "material.root_endurance_limit");
+  const double overload = scene.operation != nullptr ? scene.operation->overload() : 1.0;
+  return borne(term, scene, &FatigueStrength::root, overload, "material.root_endurance_limit");
 }
 
 double permissible_film(const ObjectiveTerm& term, const LoadedScene& scene) {

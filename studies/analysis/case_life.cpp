@@ -62,8 +62,11 @@ void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult&
 }
 
 FilmCondition condition_of_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, const Oil& oil) {
-  const FilmCondition given{
-      .speed = loaded.operation.speed, .oil_temperature = oil.temperature, .bulk_temperature = life.bulk_temperature, .roughness = oil.roughness};
+  const FilmCondition given{.speed = loaded.operation.speed,
+                            .oil_temperature = oil.temperature,
+                            .bulk_temperature = life.bulk_temperature,
+                            .roughness = oil.roughness,
+                            .overload = loaded.operation.overload()};
   return film_condition(model.pair, model.face_width, loaded.cycle.force, *oil.lubricant, given);
 }
 
@@ -111,7 +114,7 @@ void add_errors(const MeshModel& model, const LifeModel& life, const LoadedResul
   of.errors.scuffing_safety = of.scuffing_safety * of.errors.contact_temperature / (of.contact_temperature - oil->temperature);
 }
 
-/// What a curve allows in a load case over a stress.
+/// What a curve allows in a load case over a stress, as it acts.
 double stress_safety(const std::optional<SnCurve>& curve, double cycles, double stress) {
   if (!curve) return not_given;
   return curve->stress_borne(cycles) / stress;
@@ -130,12 +133,13 @@ void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResul
   for (const Member m : both_gears) {
     const FatigueStrength& strength = life.strength[m];
     const double cycles = load_cycles(model.pair, m, loaded.operation);
-    of.iso_contact[m] = of.iso.contact_stress(m, of.K_H);
-    of.iso_root[m] = of.iso.root_stress(m, of.K_F);
-    of.contact_safety[m] = stress_safety(strength.contact, cycles, loaded.summary.peak_contact_stress);
+    const Operation& under = loaded.operation;
+    of.iso_contact[m] = of.iso.contact_stress(m, under.overload() * of.K_H);
+    of.iso_root[m] = of.iso.root_stress(m, under.overload() * of.K_F);
+    of.contact_safety[m] = stress_safety(strength.contact, cycles, under.contact_overload() * loaded.summary.peak_contact_stress);
     of.iso_contact_safety[m] = stress_safety(strength.contact, cycles, of.iso_contact[m]);
     const RootStressPeak& root = m == Member::Pinion ? loaded.summary.pinion_root_stress : loaded.summary.wheel_root_stress;
-    of.root_safety[m] = stress_safety(strength.root, cycles, root.stress);
+    of.root_safety[m] = stress_safety(strength.root, cycles, under.overload() * root.stress);
     of.iso_root_safety[m] = stress_safety(strength.root, cycles, of.iso_root[m]);
   }
 }

@@ -85,9 +85,10 @@ class SpectrumRating {
     worst.damage_error = 0.0;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].contact_damage[m] = contact_damage_at(model_, {loads_[k]}, m, curve, at_position, at_point).value;
+      const SnCurve of_case = curve.of_stress_times(loads_[k].operation.contact_overload());
       const double stress = loads_[k].cycle->positions[at_position].contact_stress[at_point];
-      worst.damage_error += added_damage(m, k, curve, stress, contact_stress_error(loaded(k)));
-      worst.exceeds_static_limit = worst.exceeds_static_limit || loaded(k).summary.peak_contact_stress > curve.static_limit;
+      worst.damage_error += added_damage(m, k, of_case, stress, contact_stress_error(loaded(k)));
+      worst.exceeds_static_limit = worst.exceeds_static_limit || loaded(k).summary.peak_contact_stress > of_case.static_limit;
     }
     spectrum_.contact[m] = worst;
   }
@@ -107,9 +108,10 @@ class SpectrumRating {
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].root_damage[m] = root_damage(model_, {loads_[k]}, m, curve, points)[at];
       const CycleSummary& summary = loaded(k).summary;
-      worst.damage_error += added_damage(m, k, curve, largest_root_stress(*loads_[k].cycle, points, at), root_stress_error(loaded(k)));
+      const SnCurve of_case = curve.of_stress_times(loads_[k].operation.overload());
+      worst.damage_error += added_damage(m, k, of_case, largest_root_stress(*loads_[k].cycle, points, at), root_stress_error(loaded(k)));
       const RootStressPeak& root = m == Member::Pinion ? summary.pinion_root_stress : summary.wheel_root_stress;
-      worst.exceeds_static_limit = worst.exceeds_static_limit || root.stress > curve.static_limit;
+      worst.exceeds_static_limit = worst.exceeds_static_limit || root.stress > of_case.static_limit;
     }
     spectrum_.root[m] = worst;
   }

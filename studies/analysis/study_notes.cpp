@@ -132,6 +132,19 @@ void note_reversed_loads(const Study& study, std::vector<std::string>& notes) {
       100.0 * reversed / cycles));
 }
 
+/// What is rated under more than its torque.
+void note_load_factors(const Study& study, std::vector<std::string>& notes) {
+  const LifeTable& life = study.life;
+  const auto has_dynamic_factor = [](const SpectrumBin& bin) { return bin.dynamic_factor > 1.0; };
+  if (!(life.application_factor * life.dynamic_factor > 1.0) && std::ranges::none_of(study.spectrum, has_dynamic_factor)) return;
+  notes.push_back(
+      "K_A and K_v count in damage, safety, film and flash temperature: contact stress times sqrt(K_A K_v), root stress and line load times K_A K_v; "
+      "stresses, loads, loss and transmission error themselves are those of the torque alone");
+  if (life.application_factor > 1.0 && !study.spectrum.empty()) {
+    notes.push_back("load.application_factor is above 1 although load.spectrum gives the loads: ISO 6336-6 rates a spectrum with K_A = 1");
+  }
+}
+
 /// What the flank behind the study's own is taken to be.
 void note_other_flanks(const Study& study, std::vector<std::string>& notes) {
   std::vector<std::string> names;
@@ -240,6 +253,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   }
   note_signal(study, notes);
   note_reversed_loads(study, notes);
+  note_load_factors(study, notes);
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format(
         "the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",

@@ -82,6 +82,7 @@ MeshAt StudyRun::mesh_at(const FlankCondition& condition, double torque, bool sh
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
   const std::vector<SpectrumBin>& bins = results_.study.spectrum;
+  const LifeTable& life = results_.study.life;
   std::vector<DesignScene> scenes;
   for (std::size_t number = 0; number < of_study.size(); ++number) {
     const Scene& scene = of_study[number];
@@ -92,11 +93,20 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
       if (torque == 0.0) continue;
       DesignScene& loaded = scenes.emplace_back(DesignScene{
           scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene)), {.speed = scene.speed}});
+      loaded.operation.application_factor = life.application_factor;
+      loaded.operation.dynamic_factor = life.dynamic_factor;
       loaded.deviations = scene.deviations;
       loaded.draw = scene.draw;
       if (bins.empty()) continue;
       const SpectrumBin& bin = bins[k];
-      loaded.operation = {bin.cycles, bin.speed, bin.hours, bin.temperature, bin.same_teeth, results_.study.life.meshes_per_revolution};
+      loaded.operation = {.revolutions = bin.cycles,
+                          .speed = bin.speed,
+                          .duration = bin.hours,
+                          .temperature = bin.temperature,
+                          .same_teeth = bin.same_teeth,
+                          .meshes_per_revolution = life.meshes_per_revolution,
+                          .application_factor = life.application_factor,
+                          .dynamic_factor = std::isnan(bin.dynamic_factor) ? life.dynamic_factor : bin.dynamic_factor};
       loaded.weight *= bin.cycles / revolutions;
       loaded.spectrum = static_cast<int>(number);
       loaded.bin = static_cast<int>(k);

@@ -81,6 +81,8 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
           {"scuffing_safety_error", of.errors.scuffing_safety},
           {"iso6336",
            {{"K_from", of.K_from_contact ? "loaded contact" : "ISO 6336-1, method C"},
+            {"K_A", loaded.operation.application_factor},
+            {"K_v", loaded.operation.dynamic_factor},
             {"K_H", of.K_H},
             {"K_F", of.K_F},
             {"Z_H", of.iso.Z_H},

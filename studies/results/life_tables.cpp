@@ -129,7 +129,7 @@ std::string life_csv(const StudyResults& results) {
       "scene,torque_Nm,design,bin,cycles,gear,contact_damage,root_damage,contact_safety,root_safety,sigma_H_MPa,sigma_F_MPa,S_H,S_F,"
       "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety,flash_temperature_K,contact_temperature_degC,scuffing_safety,"
       "loss_factor_error,loss_power_W_error,specific_film_thickness_error,micropitting_safety_error,flash_temperature_K_error,contact_temperature_degC_error,"
-      "scuffing_safety_error\n";
+      "scuffing_safety_error,K_A,K_v\n";
   for (const CaseLife& of : results.life->cases) {
     const LoadedResult& loaded = results.loaded[of.loaded];
     for (const Member m : each_gear) {
@@ -156,7 +156,9 @@ std::string life_csv(const StudyResults& results) {
                                  of.errors.micropitting_safety,
                                  of.errors.flash_temperature,
                                  of.errors.contact_temperature,
-                                 of.errors.scuffing_safety}) {
+                                 of.errors.scuffing_safety,
+                                 loaded.operation.application_factor,
+                                 loaded.operation.dynamic_factor}) {
         csv += fmt::format(",{}", csv_field(value));
       }
       csv += "\n";

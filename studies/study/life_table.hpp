@@ -12,13 +12,14 @@ namespace flankwright::studies {
 
 /// One load of [load] spectrum.
 struct SpectrumBin {
-  double torque{not_given};       ///< on the pinion [N mm]; > 0 loads the pair's working flank, < 0 the other one; 0: no load, no damage
-  double speed{not_given};        ///< of the pinion [rad/s], > 0; NaN: that of the load table
-  double hours{not_given};        ///< [s], > 0
-  double cycles{not_given};       ///< revolutions of the pinion, > 0; NaN: from hours and speed
-  double temperature{not_given};  ///< of the oil [deg C]; NaN: that of the lubricant
-  double mesh_misalignment{0.0};  ///< added to that of the scene [mm]
-  bool same_teeth{false};         ///< as Operation::same_teeth: `cycles` are those of the torque
+  double torque{not_given};          ///< on the pinion [N mm]; > 0 loads the pair's working flank, < 0 the other one; 0: no load, no damage
+  double speed{not_given};           ///< of the pinion [rad/s], > 0; NaN: that of the load table
+  double hours{not_given};           ///< [s], > 0
+  double cycles{not_given};          ///< revolutions of the pinion, > 0; NaN: from hours and speed
+  double temperature{not_given};     ///< of the oil [deg C]; NaN: that of the lubricant
+  double dynamic_factor{not_given};  ///< K_v [-]; NaN: LifeTable::dynamic_factor
+  double mesh_misalignment{0.0};     ///< added to that of the scene [mm]
+  bool same_teeth{false};            ///< as Operation::same_teeth: `cycles` are those of the torque
 };
 
 /// How a torque over time becomes load cycles.
@@ -55,8 +56,9 @@ struct GivenSnCurve {
 
 /// Materials as far as life goes, and [lubricant].
 struct LifeTable {
-  PerGear<int> meshes_per_revolution{0, 0};     ///< as Operation::meshes_per_revolution; 0: not given, those of the unit
-  PerGear<std::optional<MaterialGrade>> grade;  ///< a material named by ISO 6336-5
+  double application_factor{1.0}, dynamic_factor{1.0};  ///< as Operation's
+  PerGear<int> meshes_per_revolution{0, 0};             ///< as Operation::meshes_per_revolution; 0: not given, those of the unit
+  PerGear<std::optional<MaterialGrade>> grade;          ///< a material named by ISO 6336-5
   PerGear<GivenSnCurve> contact, root;
   bool has_lubricant{false};
   Lubricant lubricant;

@@ -20,6 +20,7 @@ Lubricant& lubricant(StudyBuilder& builder) {
 constexpr Range strength_range = above_zero(1e5);                 // MPa
 constexpr Range slope_range = {.low = 1.0, .high = 200.0};        // exponents of S-N curves
 constexpr Range cycles_to_knee = {.low = 1e3, .high = 1e12};      // load cycles
+constexpr Range load_factor_range = {.low = 1.0, .high = 10.0};   // K_A, K_v
 constexpr Range turning_speed = {.low = 1e-4, .high = 1e6};       // rpm: from a turn a week to turbines
 constexpr Range oil_temperature = {.low = -50.0, .high = 250.0};  // deg C
 
@@ -101,6 +102,12 @@ std::vector<SchemaKey> life_rows() {
       {.path = "load.speed", .quantity = Quantity::RotationalSpeed, .range = turning_speed, .fallback = "(none)",
        .meaning = "of the pinion; loss power and lubricant film need it",
        .store = [](Scene& s, Member, const Value& v) { s.speed = v.number; }},
+      {.path = "load.application_factor", .range = load_factor_range, .fallback = "(1)",
+       .meaning = "K_A of ISO 6336: damage, safety, film and temperature are those of the torque times K_A K_v, by the pressures of the torque; 1 where the spectrum has all loads",
+       .store = [](StudyBuilder& d, Member, const Value& v) { life(d).application_factor = v.number; }},
+      {.path = "load.dynamic_factor", .range = load_factor_range, .fallback = "(1)",
+       .meaning = "K_v of ISO 6336-1, likewise",
+       .store = [](StudyBuilder& d, Member, const Value& v) { life(d).dynamic_factor = v.number; }},
       {.path = "load.spectrum", .kind = TableListOrFile, .fallback = "(none)",
        .meaning = "loads that follow each other, instead of torque: each is a load case of every scene, and their damage is added up; { file = \"x.csv\" } reads them from columns of these names, { signal = \"x.csv\" } counts them from a torque over time",
        .hint = "",
@@ -120,6 +127,9 @@ std::vector<SchemaKey> life_rows() {
       {.path = "load.spectrum[].temperature", .quantity = Quantity::Temperature, .range = oil_temperature, .fallback = "(lubricant.temperature)",
        .meaning = "of the oil under this load",
        .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).temperature = v.number; }},
+      {.path = "load.spectrum[].dynamic_factor", .range = load_factor_range, .fallback = "(load.dynamic_factor)",
+       .meaning = "K_v under this load and speed",
+       .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).dynamic_factor = v.number; }},
       {.path = "load.spectrum[].mesh_misalignment", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "(0)",
        .meaning = "F_beta_y that this load adds to the scene's; + opens at +z",
        .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).mesh_misalignment = v.number; }},

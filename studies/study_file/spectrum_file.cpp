@@ -9,7 +9,8 @@ namespace flankwright::studies {
 namespace {
 
 constexpr std::string_view spectrum_key = "load.spectrum";
-constexpr std::array<std::string_view, 6> spectrum_columns{"torque", "speed", "hours", "cycles", "temperature", "mesh_misalignment"};
+constexpr std::array<std::string_view, 7> spectrum_columns{"torque",           "speed", "hours", "cycles", "temperature", "dynamic_factor",
+                                                           "mesh_misalignment"};
 
 }  // namespace
 

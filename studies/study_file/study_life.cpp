@@ -279,7 +279,9 @@ bool has_strength(const Study& study) {
 
 bool asks_for_life(const Study& study) {
   const auto has_speed = [](const Scene& scene) { return !std::isnan(scene.speed); };
-  return !study.spectrum.empty() || study.life.has_lubricant || has_strength(study) || std::ranges::any_of(study.scenes, has_speed);
+  const bool has_load_factor = study.life.application_factor != 1.0 || study.life.dynamic_factor != 1.0;
+  return !study.spectrum.empty() || study.life.has_lubricant || has_load_factor || has_strength(study) ||
+         std::ranges::any_of(study.scenes, has_speed);
 }
 
 }  // namespace flankwright::studies

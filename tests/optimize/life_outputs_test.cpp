@@ -53,7 +53,12 @@ const std::vector<Output> life_terms{
 }  // namespace
 
 TEST_CASE("Gradients of damage, loss, film and temperature are what central differences say", "[optimize][design][life][gradient]") {
-  DesignProblem problem(task_under_spectrum());
+  DesignTask task = task_under_spectrum();
+  for (DesignScene& scene : task.scenes) {
+    scene.operation.application_factor = 1.25;
+    scene.operation.dynamic_factor = scene.bin == 0 ? 1.1 : 1.0;
+  }
+  DesignProblem problem(task);
   std::vector<ObjectiveTerm> terms;
   for (const Output output : life_terms) terms.push_back(term(output));
   std::mt19937 generator(11);
@@ -93,6 +98,42 @@ TEST_CASE("A utilisation is the stress, the film or the temperature of a load ca
   const LoadedScene scene = problem_for_ever.scene(problem_for_ever.analyse(problem_for_ever.start(), false), 0);
   CHECK(output_value(term(Output::ContactUtilisation), scene) ==
         Approx(output_value(term(Output::PeakContactStress), scene) / life.strength.pinion.contact->limit).epsilon(1e-12));
+}
+
+TEST_CASE("K_A and K_v raise contact stress by their root, root stress and line loads by themselves, and nothing that is not rated",
+          "[optimize][design][life]") {
+  constexpr double K_A = 1.5, K_v = 1.2, K = K_A * K_v;
+  DesignTask task = task_under_spectrum();
+  LifeModel life = *task.life;
+  life.bulk_temperature = 90.0;  // else friction changes it too
+  // One exponent on either side of the knee, so that damage is a power of the stress.
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    life.strength[m].contact->exponent_beyond = life.strength[m].contact->exponent;
+    life.strength[m].root->exponent_beyond = life.strength[m].root->exponent;
+  }
+  task.life = std::make_shared<const LifeModel>(life);
+  DesignTask factored = task;
+  for (DesignScene& scene : factored.scenes) {
+    scene.operation.application_factor = K_A;
+    scene.operation.dynamic_factor = K_v;
+  }
+  DesignProblem nominal_problem(task), problem(factored);
+  const DesignAnalysis nominal_analysis = nominal_problem.analyse(nominal_problem.start(), false);
+  const DesignAnalysis analysis = problem.analyse(problem.start(), false);
+  const LoadedScene nominal = nominal_problem.scene(nominal_analysis, 0), scene = problem.scene(analysis, 0);
+  const auto rise = [&](Output output) { return output_value(term(output), scene) / output_value(term(output), nominal); };
+  constexpr double round_off = 1e-12;
+  CHECK(rise(Output::PeakContactStress) == 1.0);
+  CHECK(rise(Output::PeakRootStress) == 1.0);
+  CHECK(rise(Output::LossFactor) == 1.0);
+  CHECK(rise(Output::ContactUtilisation) == Approx(std::sqrt(K)).epsilon(round_off));
+  CHECK(rise(Output::RootUtilisation) == Approx(K).epsilon(round_off));
+  CHECK(rise(Output::ContactDamage) == Approx(std::pow(K, life.strength.pinion.contact->exponent / 2.0)).epsilon(round_off));
+  CHECK(rise(Output::RootDamage) == Approx(std::pow(K, life.strength.pinion.root->exponent)).epsilon(round_off));
+  // Friction grows as load^0.2, and the flash temperature as friction times load^0.75.
+  CHECK(rise(Output::FlashTemperature) == Approx(std::pow(K, 0.95)).epsilon(round_off));
+  // Without the heat of sliding the film would be thinner by load^-0.13; hotter oil makes it thinner still.
+  CHECK(rise(Output::SpecificFilmThickness) < std::pow(K, -0.13));
 }
 
 TEST_CASE("Damage is a sum over the load cases of a spectrum, of which the worst point counts", "[optimize][design][life]") {

@@ -145,8 +145,12 @@ function life_table(body, life) {
     const value = of[key], error = of[`${key}_error`];
     return is_number(value) && is_number(error) ? { value, text: with_error(value, error, 3) } : value;
   };
+  const overload_of = (of) => {
+    const { K_A, K_v } = record(of.iso6336);
+    return K_A * K_v > 1 ? K_A * K_v : null;
+  };
   const least = (key) => of_both(key, minimum), most = (key) => of_both(key, maximum);
-  const quantities = [["Revolutions", "", (of) => of.cycles, 3], ["Contact damage", "", most("contact_damage"), 3], ["Root damage", "", most("root_damage"), 3],
+  const quantities = [["Revolutions", "", (of) => of.cycles, 3], ["K_A·K_v", "", overload_of, 3], ["Contact damage", "", most("contact_damage"), 3], ["Root damage", "", most("root_damage"), 3],
     ["Contact safety", "", least("contact_safety"), 3], ["Root safety", "", least("root_safety"), 3], ["S_H", "", least("S_H"), 3], ["S_F", "", least("S_F"), 3],
     ["Loss factor", "", known_to("loss_factor"), 3], ["Loss", "W", known_to("loss_power_W"), 3], ["Film λ_GF", "", known_to("specific_film_thickness"), 3],
     ["Micropitting safety", "", known_to("micropitting_safety"), 3]].filter(([, , value_of]) => has_number(life, (of) => bare(value_of(of))));

@@ -1,7 +1,9 @@
 #include "studies/tasks/sweep/sample_analysis.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 #include "core/contact/unloaded/transmission_error.hpp"
 #include "core/rating/shaft_misalignment.hpp"
@@ -52,7 +54,52 @@ constexpr std::array life_outputs{
     LifeOutput{"root_safety", "-", [](const CaseLife& c) { return least(c.root_safety); }},
 };
 
+/// Largest damage over both kinds of points of a gear, of a whole spectrum.
+struct DamageOutput {
+  const char* name;
+  bool (*of_spectrum)(const SpectrumLife&);  ///< whether the nominal sample has it
+  double (*value)(const MeshModel&, const LoadSpectrum&, const LifeModel&);
+};
+
+template <Member member>
+bool has_contact_damage(const SpectrumLife& spectrum) {
+  return spectrum.contact[member].has_value();
+}
+
+template <Member member>
+bool has_root_damage(const SpectrumLife& spectrum) {
+  return spectrum.root[member].has_value();
+}
+
+template <Member member>
+double largest_contact_damage(const MeshModel& model, const LoadSpectrum& spectrum, const LifeModel& life) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const Eigen::VectorXd damage = contact_damage(model, spectrum, member, *life.strength[member].contact, i);
+    if (damage.size() > 0) largest = std::max(largest, damage.maxCoeff());
+  }
+  return largest;
+}
+
+template <Member member>
+double largest_root_damage(const MeshModel& model, const LoadSpectrum& spectrum, const LifeModel& life) {
+  return root_damage(model, spectrum, member, *life.strength[member].root, fillet_points(model, member)).maxCoeff();
+}
+
+constexpr std::array damage_outputs{
+    DamageOutput{"pinion_contact_damage", has_contact_damage<Member::Pinion>, largest_contact_damage<Member::Pinion>},
+    DamageOutput{"wheel_contact_damage", has_contact_damage<Member::Wheel>, largest_contact_damage<Member::Wheel>},
+    DamageOutput{"pinion_root_damage", has_root_damage<Member::Pinion>, largest_root_damage<Member::Pinion>},
+    DamageOutput{"wheel_root_damage", has_root_damage<Member::Wheel>, largest_root_damage<Member::Wheel>},
+};
+
 }  // namespace
+
+/// One load case of a sample, solved.
+struct SampleAnalysis::SampleCase {
+  LoadedResult loaded{};
+  const MeshModel* model{nullptr};
+};
 
 SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal), life_(life_model(nominal.study)) {
   if (!is_loaded()) {
@@ -74,6 +121,10 @@ SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal),
     has_life_output_.push_back(!std::isnan(life.value(of_nominal)));
     if (has_life_output_.back()) outputs_.push_back({life.name, life.unit, life.smaller_is_worse});
   }
+  for (const DamageOutput& damage : damage_outputs) {
+    has_damage_.push_back(nominal.life && !nominal.life->spectra.empty() && damage.of_spectrum(nominal.life->spectra.front()));
+    if (has_damage_.back()) outputs_.push_back({damage.name, "-"});
+  }
 }
 
 SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
@@ -81,8 +132,7 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
   try {
     SweptCondition swept = SweptCondition::of(study);
     for (std::size_t j = 0; j < values.size(); ++j) set_swept(swept, study.table<SweepTable>().parameters[j], values[j]);
-    const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
-    return {"", is_loaded() ? loaded_outputs(condition, swept.scene) : unloaded_outputs(condition)};
+    return {"", is_loaded() ? loaded_outputs(swept) : unloaded_outputs(apply_effects(nominal_.effects, swept.flanks()))};
   } catch (const InvalidInput& problem) {
     return {problem.field() + ": allowed is " + problem.allowed(), {}};  // without the value, which the sample has
   } catch (const SampleFailure& failure) {
@@ -90,42 +140,79 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
   }
 }
 
-std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& condition, const Scene& scene) const {
-  const double torque = scene.torques.front();
-  if (!(torque > 0.0)) throw SampleFailure{"load.torque is 0: without load there are no loaded outputs"};
-  const Study& study = nominal_.study;
-  const MeshPlacement placement = placement_of(gap_model(nominal_.effects), condition, nominal_.shafts.get(), torque);
-  const MeshModel* model = &nominal_.models.front();
-  std::optional<MeshModel> own;
-  if (placement != model->placement) {
-    own = make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, nominal_.phases}, nominal_.mesh_effects, placement,
-                          nominal_.structures.pair.get(), nominal_.structures.root_stress.get(), nominal_.shafts.get());
-    model = &*own;
+std::vector<double> SampleAnalysis::loaded_outputs(const SweptCondition& swept) const {
+  std::vector<std::vector<double>> of_cases;
+  std::vector<SampleCase> cases;
+  std::vector<std::unique_ptr<MeshModel>> meshes;
+  if (nominal_.study.spectrum.empty()) {
+    const double torque = swept.scene.torques.front();
+    if (!(torque > 0.0)) throw SampleFailure{"load.torque is 0: without load there are no loaded outputs"};
+    SampleCase& only = cases.emplace_back();
+    only.loaded.torque = torque;
+    only.loaded.operation = nominal_.loaded.front().operation;
+    of_cases.push_back(case_outputs(only, swept, meshes));
+  } else {
+    for (const LoadedResult& nominal : nominal_.loaded) {
+      const SpectrumBin& bin = nominal_.study.spectrum[static_cast<std::size_t>(nominal.bin)];
+      SweptCondition under_load = swept;
+      under_load.scene.misalignment.mesh_misalignment += bin.mesh_misalignment;
+      SampleCase& load_case = cases.emplace_back();
+      load_case.loaded.torque = nominal.torque;
+      load_case.loaded.operation = nominal.operation;
+      of_cases.push_back(case_outputs(load_case, under_load, meshes));
+    }
   }
-  LoadedResult loaded;
-  loaded.torque = torque;
-  loaded.cycle = analyse_cycle(*model, condition, torque);
-  const LoadedCycle& cycle = loaded.cycle;
-  if (!cycle.usable()) {
-    throw SampleFailure{"the load distribution did not converge at " + std::to_string(cycle.failures) + " mesh positions"};
+  std::vector<double> values = of_cases.front();
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    for (const std::vector<double>& of_case : of_cases) {
+      values[k] = outputs_[k].smaller_is_worse ? std::fmin(values[k], of_case[k]) : std::fmax(values[k], of_case[k]);
+    }
+  }
+  LoadSpectrum spectrum;
+  for (const SampleCase& load_case : cases) spectrum.push_back({&load_case.loaded.cycle, load_case.loaded.operation});
+  for (std::size_t k = 0; k < has_damage_.size(); ++k) {
+    if (has_damage_[k]) values.push_back(damage_outputs[k].value(*cases.front().model, spectrum, *life_));
+  }
+  return values;
+}
+
+std::vector<double> SampleAnalysis::case_outputs(SampleCase& of, const SweptCondition& swept, std::vector<std::unique_ptr<MeshModel>>& meshes) const {
+  const Study& study = nominal_.study;
+  LoadedResult& loaded = of.loaded;
+  const double torque = loaded.torque;
+  const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
+  const MeshPlacement placement = placement_of(gap_model(nominal_.effects), condition, nominal_.shafts.get(), torque);
+  const bool is_nominal = placement == nominal_.models.front().placement;
+  of.model = &nominal_.models.front();
+  if (!is_nominal) {
+    auto made = std::ranges::find_if(meshes, [&](const auto& mesh) { return mesh->placement == placement; });
+    if (made == meshes.end()) {
+      made = meshes.insert(made, std::make_unique<MeshModel>(make_mesh_model(
+                                     nominal_.pair, study.material, {study.fidelity.quadrature, nominal_.phases}, nominal_.mesh_effects, placement,
+                                     nominal_.structures.pair.get(), nominal_.structures.root_stress.get(), nominal_.shafts.get())));
+    }
+    of.model = made->get();
+  }
+  const MeshModel& model = *of.model;
+  loaded.cycle = analyse_cycle(model, condition, torque);
+  if (!loaded.cycle.usable()) {
+    throw SampleFailure{"the load distribution did not converge at " + std::to_string(loaded.cycle.failures) + " mesh positions"};
   }
   const MeshAt made_at = [&](const std::vector<double>& phases) {
     return make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects, placement,
                            nominal_.structures.pair.get(), nullptr, nominal_.shafts.get());
   };
-  const MeshAt mesh_at = own ? made_at : memory_.remembering(made_at);
+  const MeshAt mesh_at = is_nominal ? memory_.remembering(made_at) : made_at;
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
-  loaded.summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
-  const double by_shafts = nominal_.shafts ? shaft_misalignment(shafts_under(*nominal_.shafts, *model, torque), *model, cycle) : 0.0;
-  const IsoDeviations deviations = iso_deviations(model->pair, condition, by_shafts);
-  loaded.iso = iso_load_factors(model->pair, model->iso, deviations, torque, model->face_width);
+  loaded.summary = resolve_cycle(model, loaded.cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
+  const double by_shafts = nominal_.shafts ? shaft_misalignment(shafts_under(*nominal_.shafts, model, torque), model, loaded.cycle) : 0.0;
+  const IsoDeviations deviations = iso_deviations(model.pair, condition, by_shafts);
+  loaded.iso = iso_load_factors(model.pair, model.iso, deviations, torque, model.face_width);
   std::vector<double> values;
   for (const CycleEntry& entry : entries_) values.push_back(entry.value(loaded.summary));
   for (const IsoOutput& output : iso_outputs) values.push_back(output.value(loaded.iso));
   if (life_ == nullptr) return values;
-  loaded.operation = nominal_.loaded.front().operation;
-  loaded.operation.speed = scene.speed;
-  const CaseLife life = case_life(*model, *life_, loaded);
+  const CaseLife life = case_life(model, *life_, loaded);
   for (std::size_t k = 0; k < life_outputs.size(); ++k) {
     if (has_life_output_[k]) values.push_back(life_outputs[k].value(life));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,14 @@ class SampleAnalysis {
   SampleResult analyse(const std::vector<double>& values) const;
 
  private:
-  std::vector<double> loaded_outputs(const FlankCondition& condition, const Scene& scene) const;
+  struct SampleCase;
+
+  /// Of each output the worst over all load cases; and of the spectrum its damage.
+  std::vector<double> loaded_outputs(const SweptCondition& swept) const;
+  /// Solves a load case.
+  /// @param of      its torque and operation are given
+  /// @param meshes  of the sample so far, of other placements than the nominal one
+  std::vector<double> case_outputs(SampleCase& of, const SweptCondition& swept, std::vector<std::unique_ptr<MeshModel>>& meshes) const;
   std::vector<double> unloaded_outputs(const FlankCondition& condition) const;
   bool is_loaded() const { return !nominal_.loaded.empty(); }
 
@@ -46,6 +54,7 @@ class SampleAnalysis {
   std::vector<CycleEntry> entries_;        ///< those of the outputs under load that are entries of cycle_quantities()
   std::shared_ptr<const LifeModel> life_;  ///< null: the study does not ask for life
   std::vector<bool> has_life_output_;      ///< of each output of life
+  std::vector<bool> has_damage_;           ///< of each output of damage
   std::vector<SweepOutput> outputs_;
 };
 

@@ -140,11 +140,12 @@ void check_sweep(StudyReading& reading) {
   if (reading.find("scenes") != nullptr) {
     return reading.refuse_key("scenes", "a sweep runs one working condition: vary its keys in sweep.parameters");
   }
-  if (study.torques.size() > 1) {
-    const bool has_spectrum = reading.find("load.spectrum") != nullptr;
-    return reading.refuse_key(has_spectrum ? "load.spectrum" : "load.torque",
-                              std::string("a sweep takes one torque") + (has_spectrum ? ": allowed is load.torque instead of a spectrum" : "") +
-                                  ", or load.torque = { values = [...] } in sweep.parameters");
+  const bool has_spectrum = reading.find("load.spectrum") != nullptr;
+  if (has_spectrum && is_swept(study.table<SweepTable>(), "load.torque")) {
+    return reading.refuse_key("sweep.parameters.load.torque", "a sweep has all loads of load.spectrum: allowed is this or load.spectrum");
+  }
+  if (!has_spectrum && study.torques.size() > 1) {
+    return reading.refuse_key("load.torque", "a sweep takes one torque, or load.torque = { values = [...] } in sweep.parameters");
   }
   for (const ExclusiveKeys& keys : exclusive_keys()) {
     if (is_swept(study.table<SweepTable>(), keys.first) && is_swept(study.table<SweepTable>(), keys.second)) {

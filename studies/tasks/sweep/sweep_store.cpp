@@ -129,6 +129,8 @@ std::vector<GivenValue> deciding_settings(const Study& study) {
   };
   add_file("pinion.modification.grid", study.grid.pinion.file);
   add_file("wheel.modification.grid", study.grid.wheel.file);
+  add_file("load.spectrum.file", study.spectrum_source.file);
+  add_file("load.spectrum.signal", study.spectrum_source.signal);
   for (const auto& [gear, files] : {std::pair{"pinion", &study.tooth_grids.pinion}, std::pair{"wheel", &study.tooth_grids.wheel}}) {
     for (std::size_t k = 0; k < files->size(); ++k) add_file(fmt::format("{}.error.grids.{}", gear, k), (*files)[k]);
   }

@@ -36,6 +36,12 @@ void add_grids(const Study& study, const std::string& gear, const GivenGrid& gri
   overrides.push_back({gear + ".error.grids", list + "]"});
 }
 
+void add_spectrum_file(const Study& study, std::vector<Override>& overrides) {
+  const SpectrumSource& source = study.spectrum_source;
+  if (!source.file.empty()) overrides.push_back({"load.spectrum.file", quoted(absolute(study, source.file))});
+  if (!source.signal.empty()) overrides.push_back({"load.spectrum.signal", quoted(absolute(study, source.signal))});
+}
+
 }  // namespace
 
 std::string sample_study(const Study& study, const std::string& title, const std::vector<double>& values) {
@@ -57,6 +63,7 @@ std::string sample_study(const Study& study, const std::string& title, const std
     overrides.push_back({"cycle.positions", fmt::format("{}", study.cycle.positions)});
   add_grids(study, "pinion", study.grid.pinion, study.tooth_grids.pinion, overrides);
   add_grids(study, "wheel", study.grid.wheel, study.tooth_grids.wheel, overrides);
+  add_spectrum_file(study, overrides);
   std::vector<StudyProblem> problems;
   const StudyDocument document(study.text, study.file, overrides, problems);
   assert(problems.empty());

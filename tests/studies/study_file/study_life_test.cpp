@@ -337,6 +337,35 @@ TEST_CASE("Results have the damage of each load case and its sum, by hand", "[st
   CHECK(largest == spectrum.at("pinion").at("contact").at("damage").get<double>());
 }
 
+TEST_CASE("K_A and K_v of the load, or K_v of one load of a spectrum, count in the ratings by ISO 6336 and are shown", "[studies][life]") {
+  const auto cases_of = [](const std::string& load) {
+    const StudyResults results = run_study(life_study(life_pair + load + life_strength));
+    return Json(results_document(results).at("life").at("cases"));
+  };
+  const std::string bins = "spectrum = [{ torque = 300, cycles = 1e7 }, { torque = 150, cycles = 1e8";
+  const Json nominal = cases_of("[load]\n" + bins + " }]\n");
+  const Json factored = cases_of("[load]\napplication_factor = 1.25\ndynamic_factor = 1.1\n" + bins + ", dynamic_factor = 1.3 }]\n");
+  constexpr double round_off = 1e-12;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double K_v = k == 0 ? 1.1 : 1.3, K = 1.25 * K_v;
+    const Json &before = nominal[k], &after = factored[k];
+    CHECK(after.at("iso6336").at("K_A") == 1.25);
+    CHECK(after.at("iso6336").at("K_v") == K_v);
+    CHECK(after.at("peak_contact_stress_MPa") == before.at("peak_contact_stress_MPa"));
+    for (const char* gear : {"pinion", "wheel"}) {
+      const auto rise = [&](const char* key) { return after.at(gear).at(key).get<double>() / before.at(gear).at(key).get<double>(); };
+      CHECK(rise("sigma_H_MPa") == Approx(std::sqrt(K)).epsilon(round_off));
+      CHECK(rise("sigma_F_MPa") == Approx(K).epsilon(round_off));
+      CHECK(rise("S_H") == Approx(1.0 / std::sqrt(K)).epsilon(round_off));
+      CHECK(rise("contact_safety") == Approx(1.0 / std::sqrt(K)).epsilon(round_off));
+      CHECK(rise("contact_damage") > 1.0);
+    }
+  }
+  // Without a spectrum too, and where nothing else asks for a rating.
+  const StudyResults alone = run_study(life_study(life_pair + "[load]\ntorque = 300\napplication_factor = 1.25\n"));
+  CHECK(results_document(alone).at("life").at("cases")[0].at("iso6336").at("K_A") == 1.25);
+}
+
 TEST_CASE("Loss, film and temperatures carry errors that hold beside a cycle four times finer both ways", "[studies][life][cycle-error]") {
   const std::string oil =
       "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\nscuffing_temperature = 250\npermissible_film = 0.2\n";

@@ -62,6 +62,36 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
   CHECK(samples[0].result.outputs[0] != samples[3].result.outputs[0]);
 }
 
+TEST_CASE("A sample under a load spectrum has the worst of its loads and the damage of their sum", "[studies][sweep][life]") {
+  const std::string spectrum =
+      "{ spectrum = [{ torque = 600, cycles = 1e8 }, { torque = 0, cycles = 1e9 }, { torque = 1000, cycles = 1e6, mesh_misalignment = 4 }] }";
+  const std::vector<Override> life{{"load", spectrum},
+                                   {"material.contact_endurance_limit", "500"},
+                                   {"sweep.parameters", "{ \"misalignment.mesh_misalignment\" = { normal = [0, 6] } }"}};
+  const Study study = sweep_study("samples = 4\nindices = \"off\"", "", life);
+  const std::vector<StoredSample> samples = samples_of(study);
+  const auto outputs = SampleAnalysis(run_study(study)).outputs();
+  const auto of = [&](const StoredSample& sample, const std::string& name) {
+    const auto at = std::ranges::find(outputs, name, &SweepOutput::name);
+    REQUIRE(at != outputs.end());
+    return sample.result.outputs[static_cast<std::size_t>(at - outputs.begin())];
+  };
+  CHECK(std::ranges::find(outputs, "pinion_root_damage", &SweepOutput::name) == outputs.end());  // no root stress, no limit
+  for (const StoredSample& sample : samples) {
+    REQUIRE(sample.result.failure.empty());
+    const StudyResults alone = run_study(parse_study(sample_study(study, "one", sample.values), "one.toml", {{"cycle.peaks", "sampled"}}));
+    REQUIRE(alone.loaded.size() == 2);
+    const CycleSummary &light = alone.loaded[0].summary, &heavy = alone.loaded[1].summary;
+    CHECK(of(sample, "peak_contact_stress_MPa") == std::max(light.peak_contact_stress, heavy.peak_contact_stress));
+    CHECK(of(sample, "mean_stiffness_N_per_mm_um") == Approx(std::min(light.mean_stiffness, heavy.mean_stiffness)).epsilon(1e-12));
+    CHECK(of(sample, "pinion_contact_damage") == alone.life->spectra.at(0).contact.pinion->damage);
+    CHECK(of(sample, "wheel_contact_damage") == alone.life->spectra.at(0).contact.wheel->damage);
+    const auto least = [](const CaseLife& c) { return std::min(c.contact_safety.pinion, c.contact_safety.wheel); };
+    CHECK(of(sample, "contact_safety") == std::min(least(alone.life->cases[0]), least(alone.life->cases[1])));
+  }
+  CHECK(of(samples[0], "pinion_contact_damage") != of(samples[1], "pinion_contact_damage"));
+}
+
 TEST_CASE("Samples have the loss, film and safety that the analysis of their own study has", "[studies][sweep][life]") {
   const std::vector<Override> life{{"load.speed", "1000"},
                                    {"material.contact_endurance_limit", "1500"},
