@@ -9,6 +9,9 @@
 
 namespace flankwright {
 
+/// A length as messages name it.
+inline std::string in_mm(double length) { return in_words(length) + " mm"; }
+
 /// Everything that is wrong with an input, where a check would throw at the first field outside its range.
 class Findings {
  public:

@@ -39,9 +39,9 @@ class Cases {
   Case with(const EffectDecisions& decisions, const std::string& left_out = {}) const {
     FlankCondition condition = apply_effects(decisions, scene_.condition);
     const MeshPlacement placement = placement_of(gap_model(decisions), condition, scene_.shafts, scene_.pinion_torque);
-    const PairCompliance& structure = slices_ ? *slices_ : *scene_.structure;
+    const PairCompliance* structure = slices_ ? &*slices_ : scene_.structure;
     const auto make = [&] {
-      return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts);
+      return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, {.structure = structure, .shafts = scene_.shafts});
     };
     return {meshes_.mesh(left_out, placement, make), std::move(condition)};
   }

@@ -88,6 +88,12 @@ FlankCondition whole_condition(const FlankCondition& condition) { return conditi
 
 bool shafts_deflect(ConditionPart part) { return part == &lead_part || part == &whole_condition; }
 
+FlankCondition part_without_rims(const FlankCondition& condition, ConditionPart part, double rim_opening) {
+  FlankCondition of_part = part(condition);
+  if (!shafts_deflect(part)) of_part.misalignment.mesh_misalignment -= rim_opening;
+  return of_part;
+}
+
 bool acts(const MeshParameter& parameter, ConditionPart part) {
   FlankCondition only;
   if (const auto* gear = std::get_if<GearParameter>(&parameter)) {

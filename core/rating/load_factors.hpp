@@ -26,6 +26,10 @@ bool acts(const MeshParameter& parameter, ConditionPart part);
 /// as it is in ISO 6336-1 (f_sh): they belong to the lead part and to the whole. The perfect pair and the profile part have rigid shafts.
 bool shafts_deflect(ConditionPart part);
 
+/// A part of a condition beside rims on webs, whose tilt is a deviation of the lead as well: where shafts are rigid, the flanks are set against what it opens.
+/// @param rim_opening  rim_opening() under the torque [mm]; 0: solid bodies
+FlankCondition part_without_rims(const FlankCondition& condition, ConditionPart part, double rim_opening);
+
 /// Load distribution factors from the calculated load distribution, over the whole mesh cycle. By contact stress each is the square of a ratio of peaks,
 ///
 ///     K = (sigma_Hmax / sigma_Hmax0)^2,      0: the perfect pair under the same torque,

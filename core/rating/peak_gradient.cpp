@@ -190,20 +190,27 @@ PeakGradients peak_gradients(const MeshAt& mesh_at, const FlankCondition& condit
 }
 
 PeakGradients peak_gradients_of_part(const MeshAt& mesh_at, const FlankCondition& condition, ConditionPart part, double pinion_torque,
-                                     const ContactPeaks& peaks, const std::vector<MeshParameter>& parameters) {
+                                     const ContactPeaks& peaks, const std::vector<MeshParameter>& parameters, double opening_per_torque) {
   std::vector<MeshParameter> acting;
   std::vector<Eigen::Index> column;
+  Eigen::Index torque = -1;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (!acts(parameters[p], part)) continue;
+    if (std::holds_alternative<PinionTorque>(parameters[p])) torque = static_cast<Eigen::Index>(p);
     acting.push_back(parameters[p]);
     column.push_back(static_cast<Eigen::Index>(p));
   }
-  PeakGradients gradients = peak_gradients(mesh_at, part(condition), pinion_torque, peaks, acting);
+  // With the torque the misalignment grows that a part without the tilt of its rims is set against.
+  const bool is_set_against_rims = opening_per_torque != 0.0 && !shafts_deflect(part) && torque >= 0;
+  if (is_set_against_rims) acting.push_back(&Misalignment::mesh_misalignment);
+  const FlankCondition of_part = part_without_rims(condition, part, opening_per_torque * pinion_torque);
+  PeakGradients gradients = peak_gradients(mesh_at, of_part, pinion_torque, peaks, acting);
   for (PeakGradients::Pair* pair : {&gradients.with_spikes, &gradients.without_spikes}) {
     for (Eigen::RowVectorXd* row : {&pair->contact_stress, &pair->line_load}) {
       if (row->size() != std::ssize(acting)) continue;  // no peak
       Eigen::RowVectorXd all = Eigen::RowVectorXd::Zero(std::ssize(parameters));
-      all(column) = *row;
+      for (std::size_t k = 0; k < column.size(); ++k) all[column[k]] = (*row)[static_cast<Eigen::Index>(k)];
+      if (is_set_against_rims) all[torque] -= opening_per_torque * row->tail<1>()[0];
       *row = all;
     }
   }

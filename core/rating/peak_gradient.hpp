@@ -35,9 +35,11 @@ PeakGradients peak_gradients(const MeshAt& mesh_at, const FlankCondition& condit
                              const std::vector<MeshParameter>& parameters);
 
 /// The same for a part of a condition, as the whole's parameters change: those that the part leaves out do not move it.
-/// @param peaks  of part(condition)
+/// @param peaks               of part_without_rims()
+/// @param opening_per_torque  rim_opening() over the torque [mm per N mm]. Where it is not 0, derivatives by the torque need the perturbed meshes of
+///                            Misalignment::mesh_misalignment too, if that moves the mesh
 PeakGradients peak_gradients_of_part(const MeshAt& mesh_at, const FlankCondition& condition, ConditionPart part, double pinion_torque,
-                                     const ContactPeaks& peaks, const std::vector<MeshParameter>& parameters);
+                                     const ContactPeaks& peaks, const std::vector<MeshParameter>& parameters, double opening_per_torque = 0.0);
 
 /// Derivatives of LoadFactors, 1 x m each; empty where the factor has no value.
 struct LoadFactorGradients {

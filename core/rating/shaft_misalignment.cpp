@@ -30,4 +30,16 @@ double shaft_misalignment(const ShaftPair& shafts, const MeshModel& model, const
   return sum / static_cast<double>(cycle.positions.size());
 }
 
+double rim_opening(const PairRimMotion& rims, const MeshModel& model, double force) {
+  double sum = 0.0;
+  for (const MeshPosition& at : model.positions) {
+    if (at.points.empty()) continue;
+    const Eigen::VectorXd forces = at.weight * (force / at.weight.sum());
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (rims.has_rim(m)) sum += rims.motion(m, at.points, forces, model.axial_offset).misalignment_at_teeth;
+    }
+  }
+  return sum / static_cast<double>(model.positions.size());
+}
+
 }  // namespace flankwright

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/compliance/pair/pair_rim_motion.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 
@@ -18,5 +19,10 @@ double opened_by(const ShaftPair& shafts, const PerGear<ShaftMotion>& motions);
 
 /// f_sh, the mean of opened_by() over the positions of a cycle [mm]; NaN where one of them has no load distribution.
 double shaft_misalignment(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle);
+
+/// What the rims of gears on webs open the mesh by at +z under a line load that is even along all lines of a position, at the loaded teeth, mean over the model's positions:
+/// as f_sh a misalignment that the loads bring [mm]. In proportion to the force; 0 without rims.
+/// @param force  normal to the flanks [N]
+double rim_opening(const PairRimMotion& rims, const MeshModel& model, double force);
 
 }  // namespace flankwright

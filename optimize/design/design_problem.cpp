@@ -50,8 +50,9 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
 }
 
 MeshModel DesignProblem::made_mesh(const MeshPlacement& placement) const {
-  return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement, task_.structure.get(), task_.root_stress.get(),
-                         task_.shafts.get(), for_each_in_parallel);
+  return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement,
+                         {.structure = task_.structure.get(), .root_stress = task_.root_stress.get(), .shafts = task_.shafts.get()},
+                         for_each_in_parallel);
 }
 
 std::shared_ptr<const MeshModel> DesignProblem::shared_mesh(const MeshPlacement& placement) const {

@@ -34,6 +34,8 @@ class Distribution {
   Kind kind() const { return kind_; }
   /// Levels of Kind::Values; 0 of a continuous distribution.
   int levels() const { return static_cast<int>(values_.size()); }
+  /// These, in their order; none of a continuous distribution.
+  const std::vector<double>& level_values() const { return values_; }
   /// The value below which a share u lies; of Values the one that u falls to. Increasing in u, except in Values.
   /// @param u  0 < u < 1
   double quantile(double u) const;

@@ -75,7 +75,7 @@ MeshOfResolution LevelRunner::mesh(const FidelityLevel& level, const DesignScene
   const MeshPlacement placement = placement_of(level.gap, scene.condition, subject_.shafts.get(), scene.torque);
   return [this, on = effects(level), placement, structure = structures(level.compliance).pair](const MeshResolution& resolution) {
     const Study& study = subject_.study;
-    return make_mesh_model(subject_.pair, study.material, resolution, on, placement, structure.get(), nullptr, subject_.shafts.get(),
+    return make_mesh_model(subject_.pair, study.material, resolution, on, placement, {.structure = structure.get(), .shafts = subject_.shafts.get()},
                            for_each_in_parallel);
   };
 }

@@ -13,11 +13,12 @@ const LoadRater::Known* LoadRater::find(const FlankCondition& condition, double 
   return found == known_.end() ? nullptr : &*found;
 }
 
-const ContactPeaks& LoadRater::peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, ConditionPart part, double pinion_torque) {
-  const FlankCondition of_part = part(condition);
+const ContactPeaks& LoadRater::peaks_of(const Case& load_case, ConditionPart part) {
+  const FlankCondition condition = condition_of(load_case, part);
   const bool shafts = with_shafts(part);
-  if (const Known* known = find(of_part, pinion_torque, shafts)) return known->peaks;
-  known_.push_back({of_part, pinion_torque, shafts, locate_peaks(mesh_for(of_part, shafts, {}), of_part, pinion_torque)});
+  if (const Known* known = find(condition, load_case.pinion_torque, shafts)) return known->peaks;
+  const ContactPeaks peaks = locate_peaks(load_case.mesh_for(condition, shafts, {}), condition, load_case.pinion_torque);
+  known_.push_back({condition, load_case.pinion_torque, shafts, peaks});
   return known_.back().peaks;
 }
 
@@ -26,7 +27,7 @@ void LoadRater::seek(const std::vector<Case>& cases) {
   const std::size_t first = known_.size();
   for (const Case& load_case : cases) {
     for (const ConditionPart part : {perfect_part, lead_part, profile_part, whole_condition}) {
-      const FlankCondition condition = part(load_case.condition);
+      const FlankCondition condition = condition_of(load_case, part);
       if (find(condition, load_case.pinion_torque, with_shafts(part)) != nullptr) continue;
       known_.push_back({condition, load_case.pinion_torque, with_shafts(part), {}});
       of.push_back(&load_case);
@@ -38,21 +39,21 @@ void LoadRater::seek(const std::vector<Case>& cases) {
   });
 }
 
-LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque,
-                           const std::vector<MeshParameter>& parameters) {
+LoadRating LoadRater::rate(const Case& load_case, const std::vector<MeshParameter>& parameters) {
   LoadRating rating;
-  const auto peaks = [&](ConditionPart part) { return peaks_of(mesh_for, condition, part, pinion_torque); };
-  rating.perfect = peaks(perfect_part);
-  rating.lead = peaks(lead_part);
-  rating.profile = peaks(profile_part);
-  rating.combined = peaks(whole_condition);
+  rating.perfect = peaks_of(load_case, perfect_part);
+  rating.lead = peaks_of(load_case, lead_part);
+  rating.profile = peaks_of(load_case, profile_part);
+  rating.combined = peaks_of(load_case, whole_condition);
   rating.factors = load_factors(rating.perfect, rating.lead, rating.profile, rating.combined);
   if (parameters.empty()) return rating;
-  const auto rated = [&](const ContactPeaks& peaks_of_part, ConditionPart part) {
+  const double torque = load_case.pinion_torque, opening_per_torque = load_case.rim_opening / torque;
+  const auto rated = [&](const ContactPeaks& peaks, ConditionPart part) {
     std::vector<MeshParameter> acting;
     std::ranges::copy_if(parameters, std::back_inserter(acting), [&](const MeshParameter& p) { return acts(p, part); });
-    const MeshAt mesh = mesh_for(part(condition), with_shafts(part), acting);
-    return RatedPeaks{peaks_of_part, peak_gradients_of_part(mesh, condition, part, pinion_torque, peaks_of_part, parameters)};
+    if (opening_per_torque != 0.0) acting.push_back(&Misalignment::mesh_misalignment);  // changes with the torque
+    const MeshAt mesh = load_case.mesh_for(condition_of(load_case, part), with_shafts(part), acting);
+    return RatedPeaks{peaks, peak_gradients_of_part(mesh, load_case.condition, part, torque, peaks, parameters, opening_per_torque)};
   };
   const RatedPeaks combined = rated(rating.combined, whole_condition);
   const RatedPeaks perfect = rated(rating.perfect, perfect_part);

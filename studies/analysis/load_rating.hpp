@@ -32,12 +32,13 @@ class LoadRater {
     MeshFor mesh_for;
     FlankCondition condition;
     double pinion_torque{not_given};  ///< [N mm]
+    double rim_opening{0.0};          ///< under it, rim_opening() [mm]; 0: no gear is on a web
   };
   /// Seeks the peaks of all parts of the conditions of load cases, each once, on all threads.
   void seek(const std::vector<Case>& cases);
 
   /// @param parameters  derivatives are given with respect to these; none by default
-  LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters = {});
+  LoadRating rate(const Case& load_case, const std::vector<MeshParameter>& parameters = {});
 
  private:
   struct Known {
@@ -47,7 +48,8 @@ class LoadRater {
     ContactPeaks peaks;
   };
   const Known* find(const FlankCondition& condition, double pinion_torque, bool shafts_deflect) const;
-  const ContactPeaks& peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, ConditionPart part, double pinion_torque);
+  const ContactPeaks& peaks_of(const Case& load_case, ConditionPart part);
+  static FlankCondition condition_of(const Case& of, ConditionPart part) { return part_without_rims(of.condition, part, of.rim_opening); }
   bool with_shafts(ConditionPart part) const { return has_shafts && shafts_deflect(part); }
 
   std::vector<Known> known_;

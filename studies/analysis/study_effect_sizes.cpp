@@ -99,8 +99,8 @@ std::vector<CycleFigures> figures_with(const StudyResults& results, const std::v
     if (known == models.end()) {
       const MeshResolution resolution{study.fidelity.quadrature, results.phases};
       known = models
-                  .emplace(placement, make_mesh_model(results.pair, study.material, resolution, effects, placement, results.structures.pair.get(),
-                                                      nullptr, results.shafts.get()))
+                  .emplace(placement, make_mesh_model(results.pair, study.material, resolution, effects, placement,
+                                                      {.structure = results.structures.pair.get(), .shafts = results.shafts.get()}))
                   .first;
     }
     of_scene.push_back(&known->second);

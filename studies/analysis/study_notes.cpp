@@ -66,21 +66,23 @@ void note_natural_twist(const Study& study, const GearPair& pair, Member m, std:
       varied_by_tasks(study), [&](const DesignVariable& v) { return v.member == m && describe(v.parameter).flank_class == ModificationClass::Lead; });
   if (!given && !varied) return;
   if (!given) ground.lead_crowning = units::um;
+  ground.process.twist_compensation = 0.0;  // a process that is "none" has none
+  constexpr double least = 0.01;            // |S| [um]; a slope of the lead twists nothing
   const auto twist = [&](GrindingKind kind) {
     ground.process.kind = kind;
     return natural_twist(pair, m, ground) / units::um;
   };
+  const double generated = twist(GrindingKind::GeneratingGrinding);
+  if (std::abs(generated) < least) return;
+  std::string note =
+      fmt::format("the {}'s process is \"none\", its lead modification is taken as drawn: generating grinding would twist {} by {:.3g} um",
+                  name_of(m), given ? "it" : "1 um of lead crowning", generated);
   try {
-    notes.push_back(
-        fmt::format("the {}'s process is \"none\", its lead modification is taken as drawn: generating grinding would twist {} by {:.3g} um, form "
-                    "grinding with a wheel of {:.4g} mm by {:.3g} um (+ removes at the tip at z = +b/2)",
-                    name_of(m), given ? "it" : "1 um of lead crowning", twist(GrindingKind::GeneratingGrinding), ground.process.wheel_diameter,
-                    twist(GrindingKind::FormGrinding)));
+    note += fmt::format(", form grinding with a wheel of {:.4g} mm by {:.3g} um (+ removes at the tip at z = +b/2)", ground.process.wheel_diameter,
+                        twist(GrindingKind::FormGrinding));
   } catch (const InvalidInput&) {  // a form wheel of that diameter does not fit
-    notes.push_back(
-        fmt::format("the {}'s process is \"none\", its lead modification is taken as drawn: generating grinding would twist {} by {:.3g} um",
-                    name_of(m), given ? "it" : "1 um of lead crowning", twist(GrindingKind::GeneratingGrinding)));
   }
+  notes.push_back(std::move(note));
 }
 
 /// Data of a process that it does not use.
@@ -102,14 +104,7 @@ void note_signal(const Study& study, std::vector<std::string>& notes) {
   const auto percent = [&](double duration) { return 100.0 * duration / signal.duration; };
   if (signal.counting == LoadCounting::Rainflow) {
     notes.push_back("rainflow counts the swings of the torque, as load cycles of teeth that stay in mesh with each other; revolutions do not count");
-    if (signal.least_torque < 0.0) notes.push_back(fmt::format("{}: torque below 0 loads the other flank and counts as 0 here", signal.file));
     return;
-  }
-  if (signal.count.reversed_duration > 0.0) {
-    notes.push_back(fmt::format(
-        "{}: for {:.3g} % of the time the torque is below 0 and loads the other flank, which counts as time without load here; torque_factor "
-        "of the other sign and the other working_flank rate that one",
-        signal.file, percent(signal.count.reversed_duration)));
   }
   if (signal.count.standing_duration > 0.0) {
     notes.push_back(fmt::format("{}: for {:.3g} % of the time the pinion is loaded at a standstill, which brings no load cycles", signal.file,
@@ -126,10 +121,10 @@ void note_reversed_loads(const Study& study, std::vector<std::string>& notes) {
     if (bin.torque < 0.0) reversed += bin.cycles;
   }
   if (!(reversed > 0.0)) return;
-  notes.push_back(fmt::format(
-      "load.spectrum: for {:.3g} % of the revolutions the torque is below 0 and loads the other flank, which counts as time without load here; a "
-      "scene with the other working_flank rates that one",
-      100.0 * reversed / cycles));
+  notes.push_back(
+      fmt::format("load.spectrum: for {:.3g} % of the {} the torque is below 0 and loads the other flank, which counts as time without load here; a "
+                  "scene with the other working_flank rates that one",
+                  100.0 * reversed / cycles, study.spectrum.front().same_teeth ? "load cycles" : "revolutions"));
 }
 
 /// What is rated under more than its torque.

@@ -23,6 +23,7 @@
 #include "studies/analysis/study_notes.hpp"
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/study_file/study_shafts.hpp"
+#include "studies/analysis/rims.hpp"
 
 namespace flankwright::studies {
 
@@ -58,8 +59,8 @@ MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& r
                          const PairCompliance* shafts, const std::vector<MeshParameter>& parameters) {
   const MeshPlaced placed = [&](const MeshPlacement& at) {
     const Study& study = results_.study;
-    return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at, structures().pair.get(), root_stress, shafts,
-                           for_each_in_parallel);
+    return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at,
+                           {.structure = structures().pair.get(), .root_stress = root_stress, .shafts = shafts}, for_each_in_parallel);
   };
   return with_perturbed_meshes(placed(placement), placed, parameters);
 }
@@ -269,7 +270,9 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
     const double by_shafts = results_.shafts ? shaft_misalignment(shafts_under(*results_.shafts, model, scene.torque), model, cycles[i]) : 0.0;
     IsoLoadFactors iso;  // not known where the shafts' loads are not
     if (!std::isnan(by_shafts)) {
-      iso = iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition, by_shafts), scene.torque, model.face_width);
+      iso =
+          iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition, by_shafts + rim_opening(results_, model, scene.torque)),
+                           scene.torque, model.face_width);
     }
     const CycleSummary summary = shown[i].summary;
     results_.loaded.push_back(

@@ -11,6 +11,7 @@
 #include "studies/analysis/deflection_note.hpp"
 #include "studies/analysis/unit_note.hpp"
 #include "studies/study_file/study_life.hpp"
+#include "studies/analysis/rims.hpp"
 
 /// What a StudyRun adds to load cases that are solved: load factors, life, the torques at which edges touch, sizes of effects.
 namespace flankwright::studies {
@@ -51,12 +52,15 @@ void StudyRun::rate() {
     };
   };
   std::vector<LoadRater::Case> cases;
-  for (const LoadedResult* loaded : rated) cases.push_back({mesh_for(loaded->torque), loaded->condition, loaded->torque});
+  for (const LoadedResult* loaded : rated) {
+    const double opening = rim_opening(results_, results_.models[loaded->model], loaded->torque);
+    cases.push_back({mesh_for(loaded->torque), loaded->condition, loaded->torque, opening});
+  }
   rater_.has_shafts = results_.shafts != nullptr;
   rater_.seek(cases);
-  for (LoadedResult* loaded : rated) {
-    loaded->rating = rater_.rate(mesh_for(loaded->torque), loaded->condition, loaded->torque, gradient_parameters());
-    loaded->rating->quadrature = quadrature;
+  for (std::size_t i = 0; i < rated.size(); ++i) {
+    rated[i]->rating = rater_.rate(cases[i], gradient_parameters());
+    rated[i]->rating->quadrature = quadrature;
   }
   results_.steps.push_back({"load_factors", "peaks between the positions, of the perfect pair and of parts of the conditions", clock.seconds()});
 }

@@ -1,4 +1,5 @@
 #include "studies/results/bodies_json.hpp"
+#include "studies/analysis/rims.hpp"
 
 #include <fmt/format.h>
 
@@ -52,16 +53,10 @@ Json over_positions(const std::vector<RimMotion>& motions) {
   return json;
 }
 
-/// The rims on the flanks that a load case has touching. @pre a gear is on a web
-const PairRimMotion& rims_of(const LoadedResult& loaded, const StudyResults& results) {
-  const bool behind = results.models[loaded.model].placement.other_flanks && results.structures.other_flanks;
-  return *(behind ? *results.structures.other_flanks : results.structures).rim_motion;
-}
-
 /// One gear's rim at the positions of a load case; fewer than there are where one has no load distribution.
 std::vector<RimMotion> rim_motions(const LoadedResult& loaded, const StudyResults& results, Member member) {
-  const PairRimMotion& rims = rims_of(loaded, results);
   const MeshModel& model = results.models[loaded.model];
+  const PairRimMotion& rims = *rims_of(results, model);
   std::vector<RimMotion> motions;
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
@@ -106,8 +101,8 @@ std::string rim_table(const StudyResults& results, std::size_t width) {
 }
 
 void add_rim_motion(const LoadedResult& loaded, const StudyResults& results, Json& json) {
-  const PairRimMotion& rims = rims_of(loaded, results);
   const MeshModel& model = results.models[loaded.model];
+  const PairRimMotion& rims = *rims_of(results, model);
   const auto is_usable = [](const LoadedPosition& position) { return position.load.usable(); };
   json["rims"] = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {

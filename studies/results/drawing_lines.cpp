@@ -170,6 +170,9 @@ std::vector<std::vector<std::string>> amounts_of(const GearPair& pair, Member me
                                  : fmt::format("    set {:.1f} µm, the grinding process brings {:.1f} µm", in_um(set), in_um(brought)));
     }
     if (const std::string cut = cut_tolerance(d, set, terms); !cut.empty()) lines.push_back(cut);
+    if (stated && d.key.ends_with("_crowning") && d.flank_class == ModificationClass::Profile) {
+      lines.push_back(fmt::format("    parabola with its vertex at the pitch circle, d_w = {:.3f} mm", 2.0 * pair[member].working_pitch_radius));
+    }
     if (d.key == "twist") lines.push_back(fmt::format("    {} = C_Hα at z = +b/2 less C_Hα at z = -b/2", d.symbol));
     for (const std::string& start : relief_start(pair[member], pair.flank_frame(member), d, modification)) lines.push_back("    " + start);
     all.push_back(std::move(lines));

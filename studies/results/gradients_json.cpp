@@ -6,6 +6,7 @@
 #include "core/load/cycle/perturbed_position.hpp"
 #include "core/rating/position_gradient.hpp"
 #include "core/rating/shaft_misalignment.hpp"
+#include "studies/analysis/rims.hpp"
 
 namespace flankwright::studies {
 
@@ -174,6 +175,15 @@ Json shafts_gradient_json(const ShaftPair& shafts, const LoadedResult& loaded, c
   return entry;
 }
 
+/// f_sh with what rims on webs open beside it, in proportion to the torque.
+ShaftMisalignment with_rims(ShaftMisalignment shafts, double rim_opening, double torque, const std::vector<MeshParameter>& parameters) {
+  shafts.value += rim_opening;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (std::holds_alternative<PinionTorque>(parameters[p])) shafts.derivative[static_cast<Eigen::Index>(p)] += rim_opening / torque;
+  }
+  return shafts;
+}
+
 }  // namespace
 
 Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
@@ -197,10 +207,11 @@ Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
   }
   by_shafts.derivative /= static_cast<double>(loaded.cycle.positions.size());
   if (at_load) by_shafts.value = shaft_misalignment(*at_load, model, loaded.cycle);
+  const ShaftMisalignment by_bodies = with_rims(by_shafts, rim_opening(results, model, loaded.torque), loaded.torque, outside.parameters());
   Json json{{"parameters", list(study.gradients, [](const GradientParameter& p) { return p.path; })},
             {"units", list(study.gradients, [](const GradientParameter& p) { return p.unit; })},
             {"normal_force_N", outside.row(loaded.cycle.force_derivative)},
-            {"summary", summary_gradient_json(loaded, model, outside, by_shafts, study.cycle.phases.empty())},
+            {"summary", summary_gradient_json(loaded, model, outside, by_bodies, study.cycle.phases.empty())},
             {"cycle", std::move(cycle)}};
   if (results.shafts) {
     json["summary"]["shaft_misalignment_um"] = outside.row(by_shafts.derivative, units::um);

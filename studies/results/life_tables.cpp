@@ -81,7 +81,7 @@ std::string load_factor_line(const std::vector<CaseLife>& cases) {
   const auto rated = std::ranges::count_if(cases, has_safety);
   if (of_contact == rated) return {};
   return fmt::format(
-      "{}: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment and for which rims on webs do not tilt; cycle.peaks = \"refined\" takes "
+      "{}: K_H by ISO 6336-1 method C, to which a lead slope is a misalignment; cycle.peaks = \"refined\" takes "
       "K_H of the loaded contact\n",
       of_contact > 0 ? "S_H, S_F of load cases that do not use the strength most" : "S_H, S_F");
 }

@@ -57,7 +57,7 @@ Json mesh_state_json(const MeshState& mesh) {
           {"torque_2_Nm", torque_json(mesh.torque[1])},
           {"normal_force_N", mesh.normal_force},
           {"force_on_2_N", vector_json(mesh.force)},
-          {"flank_1", name_of(mesh.first_flank)},
+          {"flank_1", mesh.torque[0] == 0.0 ? Json() : Json(name_of(mesh.first_flank))},
           {"driver", mesh.driver < 0 ? Json() : Json(mesh.shafts[static_cast<std::size_t>(mesh.driver)])},
           {"misalignment_um", number_json(in_um(mesh.misalignment))},
           {"face_load_factor", number_json(mesh.face_load_factor)}};

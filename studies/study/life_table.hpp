@@ -45,6 +45,7 @@ struct CountedSignal {
   double repeats{1.0};                                        ///< [-]
   double least_torque{not_given}, largest_torque{not_given};  ///< on the pinion [N mm]
   LoadCount count{};                                          ///< of the signal once
+  std::optional<LoadCount> reversed{};  ///< the same of the torque with the other sign, which loads the other flank; empty: none
 };
 
 /// An S-N curve as given: an endurance limit and either life factors of ISO 6336 or numbers of one's own.

@@ -1,6 +1,7 @@
 #include "studies/study_file/column_table.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -34,10 +35,15 @@ std::string in_a_list(std::span<const std::string_view> names) {
   return text;
 }
 
-/// "torque_Nm", "torque [N·m]", "torque (Nm)", "torque".
+bool starts_with_word(std::string_view text, std::string_view word) {
+  const auto alike = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b)); };
+  return text.size() >= word.size() && std::ranges::equal(text.substr(0, word.size()), word, alike);
+}
+
+/// "torque_Nm", "Torque [N·m]", "torque (Nm)", "torque".
 TableColumn column_of(const std::string& file, int line, const TableKind& kind, const TableCell& cell) {
   for (const std::string_view name : kind.columns) {
-    if (!cell.text.starts_with(name)) continue;
+    if (!starts_with_word(cell.text, name)) continue;
     std::string_view unit = trim_cell(cell.text.substr(name.size()));
     const bool apart = unit.empty() || unit.front() == '_' || unit.front() == '[' || unit.front() == '(';
     if (!apart) continue;

@@ -40,7 +40,9 @@ std::vector<double> bare_numbers(const SchemaKey& key, const toml::node& node, s
 /// The ends of a distribution must be values that the key accepts.
 void check_ends(const SchemaKey& key, const std::vector<double>& ends) {
   for (const double end : ends) {
-    if (!is_in_range(key, end)) refuse("values inside those of the key: " + allowed_values(key));
+    if (!is_in_range(key, end))
+      refuse((is_extent(key) ? "values above 0, as of the extent of a relief, inside those of the key: " : "values inside those of the key: ") +
+             allowed_values(key));
   }
 }
 

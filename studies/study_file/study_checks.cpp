@@ -10,6 +10,7 @@
 #include "core/gear/flank_tolerances.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "studies/compliance/study_compliance.hpp"
+#include "studies/study_file/scene_placement.hpp"
 
 namespace flankwright::studies {
 
@@ -214,48 +215,17 @@ void check_other_flanks(StudyReading& reading) {
   }
 }
 
-/// The total contact ratio of a pair whose axes are further apart by a distance [mm]; 0 where the tips do not reach each other.
-double contact_ratio_at(const PairData& data, double centre_distance) {
-  PairData apart = data;
-  apart.centre_distance = centre_distance;
-  try {
-    return make_gear_pair(apart).total_contact_ratio();
-  } catch (const InvalidInput&) {
-    return 0.0;
-  }
-}
-
-/// Gears that can mesh in every scene: no tip in the mate's root, axes that are not too far apart, and a common face.
 void check_scene_placements(StudyReading& reading) {
   if (!reading.problems.empty()) return;
   const Study& study = reading.builder.study;
   const GearPair pair = make_gear_pair(study.pair);
   for (std::size_t i = 0; i < study.scenes.size(); ++i) {
-    const Misalignment& of = study.scenes[i].misalignment;
-    const auto refuse = [&](const char* key, double value, const std::string& allowed) {
-      const std::string in_scene = "scenes." + std::to_string(i) + "." + key, path = reading.positions.contains(in_scene) ? in_scene : key;
+    for (const PlacementProblem& problem : placement_problems(pair, study.scenes[i].misalignment)) {
+      const std::string in_scene = "scenes." + std::to_string(i) + "." + problem.key;
+      const std::string path = reading.positions.contains(in_scene) ? in_scene : problem.key;
       const Position at = reading.where(path);
-      reading.problems.push_back({at.file, at.line, at.column, path, in_words(value), "allowed is " + allowed});
-    };
-    for (const Member m : members) {
-      const double least = pair[m].tip_radius + pair[m == Member::Pinion ? Member::Wheel : Member::Pinion].root_radius - pair.centre_distance;
-      if (of.centre_distance > least) continue;
-      refuse("misalignment.centre_distance", of.centre_distance,
-             "above " + in_words(least) + " mm, where the " + name_of(m) + "'s tip meets the mate's root circle");
-      break;
+      reading.problems.push_back({at.file, at.line, at.column, path, in_words(problem.value), "allowed is " + problem.allowed});
     }
-    if (of.centre_distance > 0.0 && contact_ratio_at(study.pair, pair.centre_distance + of.centre_distance) < 1.0) {
-      refuse("misalignment.centre_distance", of.centre_distance,
-             "one that leaves a total contact ratio of at least 1 (without it, it is " + in_words(pair.total_contact_ratio()) + " at " +
-                 in_words(pair.centre_distance) + " mm)");
-    }
-    constexpr double least_share = 0.01;  // of the narrower face, which both have in common
-    const FaceRange &one = pair.pinion.face, &other = pair.wheel.face;
-    const double common = std::min(one.end, of.axial_offset + other.end) - std::max(one.begin, of.axial_offset + other.begin);
-    const double least = least_share * std::min(one.end - one.begin, other.end - other.begin);
-    if (common < least)
-      refuse("misalignment.axial_offset", of.axial_offset,
-             "one that leaves at least " + in_words(least) + " mm of face in common, 1 % of the narrower one");
   }
 }
 

@@ -152,9 +152,12 @@ void check_grade(StudyReading& reading, Member member) {
   }
 }
 
+/// The curve of one gear, or that of both gears, about which nothing is said twice.
 void check_curve(StudyReading& reading, const GivenSnCurve& curve, Member member, const std::string& kind) {
   const auto path_of = [&](const std::string& key) { return material_path(reading, member, kind + key); };
   const auto given = [&](const std::string& key) { return reading.find(path_of(key)) != nullptr; };
+  const auto is_said = [&](const StudyProblem& problem) { return problem.key.starts_with(path_of("_sn_curve")); };
+  if (std::ranges::any_of(reading.problems, is_said)) return;
   if (std::isnan(curve.exponent) != std::isnan(curve.knee)) {
     const std::string missing = std::isnan(curve.exponent) ? "_sn_curve.exponent" : "_sn_curve.knee";
     reading.refuse(reading.where(path_of("_sn_curve")), path_of(missing), nullptr, "allowed is a number: a curve of one's own has exponent and knee");
@@ -178,6 +181,23 @@ void check_viscosity(StudyReading& reading, const std::string& path, double temp
                                           oil.kinematic_viscosity(temperature).value, Lubricant::least_viscosity, Lubricant::largest_viscosity)});
 }
 
+/// Teeth are no colder than the oil, and they scuff at a temperature above it.
+void check_temperatures(StudyReading& reading) {
+  const LifeTable& life = reading.builder.study.life;
+  double hottest = life.lubricant.temperature;
+  std::string of = "lubricant.temperature";
+  const std::vector<SpectrumBin>& bins = reading.builder.study.spectrum;
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    if (!(bins[k].temperature > hottest)) continue;
+    hottest = bins[k].temperature;
+    of = "load.spectrum." + std::to_string(k) + ".temperature";
+  }
+  if (life.bulk_temperature < hottest)
+    reading.refuse_key("lubricant.bulk_temperature", "allowed is at least " + of + ", " + in_words(hottest) + " degC");
+  if (life.scuffing_temperature <= hottest)
+    reading.refuse_key("lubricant.scuffing_temperature", "allowed is a number above " + of + ", " + in_words(hottest) + " degC");
+}
+
 void check_lubricant(StudyReading& reading) {
   const LifeTable& life = reading.builder.study.life;
   if (!life.has_lubricant) return;
@@ -196,6 +216,7 @@ void check_lubricant(StudyReading& reading) {
     return reading.refuse_key("lubricant.viscosity_40", "allowed is a number above viscosity_100");
   }
   check_viscosity(reading, "lubricant.temperature", life.lubricant.temperature);
+  check_temperatures(reading);
   if (!std::isnan(life.bulk_temperature)) check_viscosity(reading, "lubricant.bulk_temperature", life.bulk_temperature);
   const std::vector<SpectrumBin>& bins = reading.builder.study.spectrum;
   for (std::size_t k = 0; k < bins.size(); ++k) {
@@ -220,6 +241,8 @@ void read_spectrum(StudyReading& reading) {
     torques.push_back(std::max(0.0, bins[k].torque));
   }
   if (torques.empty()) torques = {0.0};
+  const bool is_idle = !bins.empty() && std::ranges::all_of(bins, [](const SpectrumBin& bin) { return bin.torque == 0.0; });
+  if (is_idle) reading.refuse(match->position, match->path, match->node, "allowed is a spectrum with a torque other than 0");
 }
 
 namespace {

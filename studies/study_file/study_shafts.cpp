@@ -52,7 +52,7 @@ void read_unit(StudyReading& reading) {
   const std::vector<InvalidInput> problems = find_problems(all, make_gear_pair(study.pair));
   for (const InvalidInput& problem : problems) refuse(reading, problem.field(), problem);
   if (!problems.empty()) return;
-  settle_turning_holds(all);
+  settle_turning_holds(all, make_gear_pair(study.pair));
   study.shaft = all.shaft;
 }
 

@@ -13,28 +13,61 @@ namespace {
 
 constexpr const char* signal_path = "load.spectrum.signal";
 
-/// Time without load; without revolutions it has no speed.
-SpectrumBin idle_bin(const LoadCount& count, double repeats) {
-  const double revolutions = count.idle_revolutions;
+/// Time without load on either flank; without revolutions it has no speed.
+SpectrumBin idle_bin(const CountedSignal& counted) {
+  double duration = counted.count.idle_duration, revolutions = counted.count.idle_revolutions;
+  if (counted.reversed) {
+    for (const LoadLevel& level : counted.reversed->levels) {
+      duration -= level.duration;
+      revolutions -= level.cycles;
+    }
+  }
+  constexpr double round_off = 1e-9;  // of the whole signal: what the sums leave
+  if (duration < round_off * counted.duration) duration = revolutions = 0.0;
+  revolutions = std::max(0.0, revolutions);
   return {.torque = 0.0,
-          .speed = revolutions > 0.0 ? 2.0 * units::pi * revolutions / count.idle_duration : not_given,
-          .hours = repeats * count.idle_duration,
-          .cycles = repeats * revolutions};
+          .speed = revolutions > 0.0 ? 2.0 * units::pi * revolutions / duration : not_given,
+          .hours = counted.repeats * duration,
+          .cycles = counted.repeats * revolutions};
+}
+
+/// Bins of one flank's levels.
+/// @param direction  1: of the pair's working flank, -1: of the other one
+void append_levels(const CountedSignal& counted, const LoadCount& count, double direction, std::vector<SpectrumBin>& bins) {
+  for (const LoadLevel& level : count.levels) {
+    if (counted.counting == LoadCounting::TimeAtLevel) {
+      bins.push_back({.torque = direction * level.torque,
+                      .speed = level.speed,
+                      .hours = counted.repeats * level.duration,
+                      .cycles = counted.repeats * level.cycles});
+    } else {
+      bins.push_back({.torque = direction * level.torque, .cycles = counted.repeats * level.cycles, .same_teeth = true});
+    }
+  }
 }
 
 std::vector<SpectrumBin> bins_of(const CountedSignal& counted) {
-  const LoadCount& count = counted.count;
   std::vector<SpectrumBin> bins;
-  if (count.idle_duration > 0.0) bins.push_back(idle_bin(count, counted.repeats));
-  for (const LoadLevel& level : count.levels) {
-    if (counted.counting == LoadCounting::TimeAtLevel) {
-      bins.push_back(
-          {.torque = level.torque, .speed = level.speed, .hours = counted.repeats * level.duration, .cycles = counted.repeats * level.cycles});
-    } else {
-      bins.push_back({.torque = level.torque, .cycles = counted.repeats * level.cycles, .same_teeth = true});
-    }
+  if (counted.counting == LoadCounting::TimeAtLevel && counted.count.idle_duration > 0.0) {
+    if (const SpectrumBin idle = idle_bin(counted); idle.hours > 0.0) bins.push_back(idle);
   }
+  append_levels(counted, counted.count, 1.0, bins);
+  if (counted.reversed) append_levels(counted, *counted.reversed, -1.0, bins);
   return bins;
+}
+
+LoadCount count(const LoadSignal& signal, const SpectrumSource& source) {
+  return source.counting == LoadCounting::TimeAtLevel ? count_time_at_level(signal, source.bins) : count_rainflow(signal, source.bins);
+}
+
+/// The loads of the other flank; nothing where it has none.
+std::optional<LoadCount> count_reversed(LoadSignal signal, const SpectrumSource& source) {
+  for (double& torque : signal.torque) torque = -torque;
+  try {
+    return count(signal, source);
+  } catch (const InvalidInput&) {  // never loaded while it turns, or without a swing
+    return std::nullopt;
+  }
 }
 
 /// A bin beyond the range of the keys that would give it.
@@ -74,7 +107,8 @@ void read_signal(StudyReading& reading, const std::string& path) {
   counted.least_torque = least;
   counted.largest_torque = largest;
   try {
-    counted.count = source.counting == LoadCounting::TimeAtLevel ? count_time_at_level(signal, source.bins) : count_rainflow(signal, source.bins);
+    counted.count = count(signal, source);
+    counted.reversed = count_reversed(signal, source);
   } catch (const InvalidInput& problem) {
     return reading.refuse_key(signal_path, path + ": " + problem.field() + " is " + problem.value() + ", allowed is " + problem.allowed());
   }

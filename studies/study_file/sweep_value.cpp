@@ -7,14 +7,10 @@
 
 namespace flankwright::studies {
 
-namespace {
-
 bool is_extent(const SchemaKey& key) {
   const auto* parameter = std::get_if<ModificationParameter>(&key.store);
   return parameter != nullptr && describe(*parameter).kind == ParameterKind::Extent;
 }
-
-}  // namespace
 
 bool is_sweepable(const SchemaKey& key) {
   const bool is_number = key.kind == ValueKind::Number || key.kind == ValueKind::NumberOrList;

@@ -8,6 +8,9 @@
 
 namespace flankwright::studies {
 
+/// True for the height or length of a relief.
+bool is_extent(const SchemaKey& key);
+
 /// True for keys that a sweep may vary: the numbers of a working condition (misalignment, torque, errors), of a modification and of the grinding's twist compensation. All
 /// else changes the gears or how they are analysed.
 bool is_sweepable(const SchemaKey& key);

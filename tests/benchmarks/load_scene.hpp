@@ -41,8 +41,8 @@ inline MeshModel model(int positions, int intervals, bool root_stress) {
   const GearPair pair = make_gear_pair(reference::haddad_18_54::pair_data());
   const CoupledSlices structure(pair);
   const mesh_cases::SyntheticRootStress fillets(pair);
-  return make_mesh_model(pair, {}, {{QuadratureRule::Gauss2, intervals}, equally_spaced_phases(positions)}, {}, {}, &structure,
-                         root_stress ? &fillets : nullptr);
+  return make_mesh_model(pair, {}, {{QuadratureRule::Gauss2, intervals}, equally_spaced_phases(positions)}, {}, {},
+                         {.structure = &structure, .root_stress = root_stress ? &fillets : nullptr});
 }
 
 inline constexpr double torque = 1014.868e3;  // N mm

@@ -55,8 +55,8 @@ Eigen::VectorXd transmission_errors(const std::shared_ptr<const FlankCompliance>
   const GearPair pair = twins();
   constexpr double kModulus = 206000;
   const StructuralPair gears(pair, {structure, kModulus}, {structure, kModulus});
-  const MeshModel model =
-      make_mesh_model(pair, {{kModulus, 0.3}, {kModulus, 0.3}}, {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(6)}, {}, {}, &gears);
+  const MeshModel model = make_mesh_model(pair, {{kModulus, 0.3}, {kModulus, 0.3}}, {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(6)}, {}, {},
+                                          {.structure = &gears});
   const LoadedCycle cycle = analyse_cycle(model, {}, 2000);
   REQUIRE(cycle.usable());
   Eigen::VectorXd errors(std::ssize(cycle.positions));

@@ -76,8 +76,8 @@ TEST_CASE("With finite elements of our own the thesis' sample outputs come out",
   auto wheel = std::async(std::launch::async, [&] { return influence_table(pair, Member::Wheel); });
   const auto pinion = influence_table(pair, Member::Pinion);
   const StructuralPair structure(pair, {pinion, kMaterial.youngs_modulus}, {wheel.get(), kMaterial.youngs_modulus});
-  const MeshModel model =
-      make_mesh_model(pair, {kMaterial, kMaterial}, {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}}, {}, {}, &structure);
+  const MeshModel model = make_mesh_model(pair, {kMaterial, kMaterial}, {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}}, {}, {},
+                                          {.structure = &structure});
   const double cos_base = std::cos(pair.base_helix_angle);
 
   for (const PrintedOutput& printed : outputs()) {

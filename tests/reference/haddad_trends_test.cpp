@@ -25,7 +25,7 @@ struct Mesh {
   double torque() const { return 100 * pair.face_width * pair.pinion.base_radius * std::cos(pair.base_helix_angle); }
   ContactPeaks peaks(const FlankCondition& condition) const {
     const MeshAt mesh_at = [this](const std::vector<double>& phases) {
-      return make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {quadrature, phases}, effects, {}, structure.get());
+      return make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {quadrature, phases}, effects, {}, {.structure = structure.get()});
     };
     return locate_peaks(mesh_at, condition, torque());
   }
@@ -85,8 +85,8 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
   const auto along_face = [&](double poissons_ratio, const MeshEffects& effects) {  // of the pair that carries all, by distance from the end [m_n]
     const auto structure = plates(pair, poissons_ratio);
-    const MeshModel model =
-        make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Graded, 16}, {phase}}, effects, {}, structure.get());
+    const MeshModel model = make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Graded, 16}, {phase}}, effects, {},
+                                            {.structure = structure.get()});
     const LoadedCycle cycle = analyse_cycle(model, {}, Mesh{pair}.torque());
     std::map<double, double> loads;
     for (std::size_t i = 0; i < model.positions[0].points.size(); ++i) {

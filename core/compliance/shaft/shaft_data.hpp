@@ -58,12 +58,12 @@ struct ShaftData {
   bool gear_stiffens{true};
   Material material{};
   std::string name{};  ///< of a unit's further shaft
-  /// Where a shaft without a coupling is held against turning, see settle_turning_holds() [mm].
+  /// Where a shaft of a unit is held against turning, see settle_turning_holds() [mm]; not given: at its coupling.
   double held_position{not_given};
 
   double length() const;
   /// -1 where the torque enters at the side of lower z than the gear, +1 at the other.
-  int torque_side() const { return (std::isnan(torque_position) ? held_position : torque_position) < gear_position ? -1 : 1; }
+  int torque_side() const { return (std::isnan(held_position) ? torque_position : held_position) < gear_position ? -1 : 1; }
 };
 
 /// Everything in the data that cannot be: no section, a gear that is not all on the shaft, a torque that enters within its

@@ -85,7 +85,7 @@ ShaftPair::ShaftPair(const GearPair& pair, ShaftsOfPair shafts, PerGear<GearBody
   const std::vector<InvalidInput> problems = find_problems(shafts, pair);
   if (!problems.empty()) throw problems.front();
   shafts_ = std::move(shafts);
-  settle_turning_holds(shafts_);
+  settle_turning_holds(shafts_, pair);
   given_ = shafts_;
   if (pair.data.working_flank == WorkingFlank::Left) shafts_ = mirrored(std::move(shafts_));
   for (const Member m : {Member::Pinion, Member::Wheel}) index_[m] = shafts_.find(m).value_or(-1);

@@ -211,7 +211,7 @@ void ShaftPair::add_shafts(double pinion_torque, double axial_offset, UnitState&
     ShaftState shaft;
     shaft.name = shafts_.names()[i];
     shaft.axis = axes[i];
-    shaft.turning_hold = turning_hold(shafts_, beam);
+    shaft.turning_hold = turning_hold(shafts_, beam, torques_);
     const int holds = supports_.turning[i];
     if (holds >= 0 && !std::isnan(data.torque_position)) shaft.coupling_torque = forces[holds];
     constexpr int pieces = 40;  // stations at equal distances, for a drawing
@@ -276,7 +276,8 @@ void ShaftPair::find_drivers(UnitState& state) const {
     }
   }
   for (MeshState& mesh : state.meshes) {
-    if (const auto first = turns.find(mesh.shafts[0]); first != turns.end()) mesh.driver = mesh.torque[0] * first->second >= 0.0 ? 0 : 1;
+    if (const auto first = turns.find(mesh.shafts[0]); first != turns.end() && mesh.torque[0] != 0.0)
+      mesh.driver = mesh.torque[0] * first->second >= 0.0 ? 0 : 1;
   }
 }
 

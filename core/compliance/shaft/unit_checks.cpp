@@ -7,6 +7,7 @@
 
 #include "core/base/findings.hpp"
 #include "core/base/positive_definite.hpp"
+#include "core/compliance/shaft/unit_layout.hpp"
 #include "core/compliance/shaft/unit_statics.hpp"
 #include "core/compliance/shaft/unit_supports.hpp"
 
@@ -14,16 +15,14 @@ namespace flankwright {
 
 namespace {
 
-std::string in_mm(double length) { return in_words(length) + " mm"; }
-
 class Checking : Findings {
  public:
   Checking(const ShaftsOfPair& shafts, const GearPair& pair) : shafts_(shafts), unit_(shafts.unit), pair_(pair), all_(shafts.all()) {}
 
   std::vector<InvalidInput> run() {
-    for (const auto check : {&Checking::check_names, &Checking::check_shafts, &Checking::check_meshes, &Checking::check_places,
-                             &Checking::check_loads, &Checking::check_joints, &Checking::check_housing, &Checking::check_restraints,
-                             &Checking::check_torques, &Checking::check_axes, &Checking::check_room}) {
+    for (const auto check :
+         {&Checking::check_names, &Checking::check_shafts, &Checking::check_meshes, &Checking::check_places, &Checking::check_loads,
+          &Checking::check_joints, &Checking::check_housing, &Checking::check_restraints, &Checking::check_torques}) {
       (this->*check)();
       if (!empty()) break;  // what follows needs what came before
     }
@@ -97,40 +96,7 @@ class Checking : Findings {
     }
   }
 
-  /// A gear's place along a shaft. A width of 0 takes no place.
-  struct Place {
-    std::string table, shaft;
-    double position, width;
-    int teeth;
-    double normal_module;
-  };
-
-  /// Gears that take the same place are one gear with several meshes.
-  void check_places() {
-    std::vector<Place> taken;
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      if (const std::optional<ShaftData>& shaft = shafts_.shaft[m])
-        taken.push_back({name_of(m), name_of(m), shaft->gear_position, pair_[m].data.face_width, pair_[m].data.teeth, pair_.data.normal_module});
-    }
-    for (std::size_t m = 0; m < unit_.meshes.size(); ++m) {
-      for (std::size_t g = 0; g < 2; ++g) {
-        const UnitGear& gear = unit_.meshes[m].gears[g];
-        const std::string table = "unit.meshes." + std::to_string(m), number = g == 0 ? "_1" : "_2";
-        const Place place{
-            table + ", gear " + std::to_string(g + 1), gear.shaft, gear.position, gear.face_width, gear.teeth, unit_.meshes[m].normal_module};
-        for (const Place& other : taken) {
-          constexpr double round_off = 1e-9;  // gears that touch overlap by at most this part of their widths
-          const bool overlap = place.shaft == other.shaft && place.width > 0.0 && other.width > 0.0 &&
-                               std::abs(place.position - other.position) < (0.5 - round_off) * (place.width + other.width);
-          require(!overlap || (place.teeth == other.teeth && std::abs(place.normal_module / other.normal_module - 1.0) < 1e-6),
-                  table + ".position" + number, place.position,
-                  "a place beside that of " + other.table + " (" + std::to_string(other.teeth) + " teeth, " + in_mm(other.normal_module) +
-                      "), or the same teeth and module: gears that overlap on a shaft are one gear");
-        }
-        taken.push_back(place);
-      }
-    }
-  }
+  void check_places() { add(find_place_problems(shafts_, pair_)); }
 
   void check_loads() {
     bool given = false;
@@ -214,9 +180,7 @@ class Checking : Findings {
 
   void check_torques() {
     if (unit_.empty()) return;
-    ShaftsOfPair analysed = shafts_;
-    if (pair_.data.working_flank == WorkingFlank::Left) analysed = mirrored(std::move(analysed));
-    const UnitTorques torques = torque_balance(analysed, pair_);
+    const UnitTorques torques = torques_as_analysed(shafts_, pair_);
     require(torques.determined, "unit.meshes", "torques that the balance leaves open",
             "torque_1 of a mesh, or a torque among the loads, wherever a shaft shares its torque between several gears and couplings");
     for (const auto& [shaft, left] : torques.unbalanced) {
@@ -224,95 +188,6 @@ class Checking : Findings {
           false, shafts_.table(shaft), in_words(left) + " N m left over for each N m on the pinion",
           "torques that balance: a coupling (torque_position), a load or a gear that takes it. About z the pinion's torque is positive where it works on its "
           "right flank, negative on the left one");
-    }
-  }
-
-  void check_axes() {
-    const std::vector<Eigen::Vector2d> axes = axes_of(shafts_, pair_);
-    const auto apart = [&](const std::string& one, const std::string& two) -> Eigen::Vector2d {
-      return axes[static_cast<std::size_t>(*shafts_.find(two))] - axes[static_cast<std::size_t>(*shafts_.find(one))];
-    };
-    constexpr double same_axis = 0.1;  // [mm]: centre distances and angles come rounded
-    for (std::size_t m = 0; m < unit_.meshes.size(); ++m) {
-      const UnitMesh& mesh = unit_.meshes[m];
-      const double distance = geometry_of(mesh).centre_distance;
-      const Eigen::Vector2d here = apart(mesh.gears[0].shaft, mesh.gears[1].shaft);
-      const Eigen::Vector2d wanted(distance * std::cos(mesh.angle), distance * std::sin(mesh.angle));
-      const bool meets = !here.allFinite() || (here - wanted).norm() <= same_axis;
-      require(meets, "unit.meshes." + std::to_string(m) + ".angle", in_words(mesh.angle / units::deg),
-              "the angle (and centre_distance) between the axes as the other meshes and joints have them, " +
-                  in_words(std::atan2(here.y(), here.x()) / units::deg) + " deg at " + in_mm(here.norm()));
-    }
-    for (std::size_t i = 0; i < unit_.joints.size(); ++i) {
-      const Eigen::Vector2d here = apart(unit_.joints[i].shaft, unit_.joints[i].outer_shaft);
-      require(!here.allFinite() || here.norm() <= same_axis, "unit.joints." + std::to_string(i) + ".outer_shaft", unit_.joints[i].outer_shaft,
-              "a shaft on the same axis: these lie " + in_mm(here.norm()) + " apart");
-    }
-  }
-
-  /// Along z the shafts lie as their meshes have them, mid face by mid face. [mm], of each shaft's first end from mid face of the pair; NaN of those
-  /// that nothing joins.
-  std::vector<double> first_ends() const {
-    std::vector<double> ends(all_.size(), not_given);
-    const auto end_of = [&](const std::string& shaft) -> double& { return ends[static_cast<std::size_t>(*shafts_.find(shaft))]; };
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      if (shafts_.shaft[m]) end_of(name_of(m)) = -shafts_.shaft[m]->gear_position;
-    }
-    bool found = true;
-    const auto join = [&](const std::string& one, double at_one, const std::string& two, double at_two) {
-      double &end_one = end_of(one), &end_two = end_of(two);
-      if (std::isnan(end_one) == std::isnan(end_two)) return;
-      (std::isnan(end_one) ? end_one = end_two + at_two - at_one : end_two = end_one + at_one - at_two);
-      found = true;
-    };
-    while (found) {
-      found = false;
-      for (const UnitMesh& mesh : unit_.meshes) join(mesh.gears[0].shaft, mesh.gears[0].position, mesh.gears[1].shaft, mesh.gears[1].position);
-      for (const ShaftJoint& joint : unit_.joints) join(joint.shaft, joint.bearing.position, joint.outer_shaft, joint.outer_position);
-    }
-    return ends;
-  }
-
-  /// A gear in the room of the unit. A width of 0 takes none.
-  struct Body {
-    std::string name, shaft;
-    int mesh;  ///< -1: the pair's
-    double position, width, root_radius;
-  };
-
-  /// Gears of different shafts take no common room: their root cylinders stay apart wherever their faces overlap.
-  void check_room() {
-    constexpr double dedendum = 1.25;  // h_fP [modules], as of the basic rack; profile shifts of meshes are not known
-    std::vector<Body> taken;
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      if (!shafts_.shaft[m]) continue;
-      const double radius = pair_.data.normal_module * pair_[m].data.teeth / (2.0 * std::cos(pair_.data.helix_angle));
-      taken.push_back({std::string("the ") + name_of(m), name_of(m), -1, shafts_.shaft[m]->gear_position, pair_[m].data.face_width,
-                       radius - dedendum * pair_.data.normal_module});
-    }
-    const std::vector<Eigen::Vector2d> axes = axes_of(shafts_, pair_);
-    const std::vector<double> ends = first_ends();
-    const auto index = [&](const std::string& shaft) { return static_cast<std::size_t>(*shafts_.find(shaft)); };
-    for (std::size_t m = 0; m < unit_.meshes.size(); ++m) {
-      const UnitMesh& mesh = unit_.meshes[m];
-      for (std::size_t g = 0; g < 2; ++g) {
-        const Body body{"gear " + std::to_string(g + 1) + " of unit.meshes." + std::to_string(m),
-                        mesh.gears[g].shaft,
-                        static_cast<int>(m),
-                        mesh.gears[g].position,
-                        mesh.gears[g].face_width,
-                        geometry_of(mesh).reference_radius[g] - dedendum * mesh.normal_module};
-        for (const Body& other : taken) {
-          if (other.shaft == body.shaft || other.mesh == body.mesh || !(std::min(body.width, other.width) > 0.0)) continue;
-          const double along = std::abs(ends[index(body.shaft)] + body.position - ends[index(other.shaft)] - other.position);
-          const double apart = (axes[index(body.shaft)] - axes[index(other.shaft)]).norm(), least = body.root_radius + other.root_radius;
-          const bool meet = along < 0.5 * std::max(body.width, other.width) && apart < least;  // false where either is not known
-          require(!meet, "unit.meshes." + std::to_string(m) + ".angle", in_words(mesh.angle / units::deg),
-                  "one that leaves room for its gears: " + body.name + " and " + other.name + " overlap along the shafts, with axes " + in_mm(apart) +
-                      " apart, and their roots need " + in_mm(least));
-        }
-        taken.push_back(body);
-      }
     }
   }
 
@@ -324,6 +199,9 @@ class Checking : Findings {
 
 }  // namespace
 
-std::vector<InvalidInput> find_problems(const ShaftsOfPair& shafts, const GearPair& pair) { return Checking(shafts, pair).run(); }
+std::vector<InvalidInput> find_problems(const ShaftsOfPair& shafts, const GearPair& pair) {
+  std::vector<InvalidInput> problems = Checking(shafts, pair).run();
+  return problems.empty() ? find_layout_problems(shafts, pair) : problems;
+}
 
 }  // namespace flankwright

@@ -24,7 +24,7 @@ struct MeshState {
   /// Where it resists tilting, the largest force per face width over the mean by its linear spring [-], >= 1; NaN: it does not. Above 2 one end of the
   /// face is out of contact, and the spring holds the shafts more than the teeth do.
   double face_load_factor{not_given};
-  /// Which of its gears drives, 0 or 1, by the torques and the turns that follow from the pair's; -1: no mesh joins it to the pair.
+  /// Which of its gears drives, 0 or 1, by the torques and the turns that follow from the pair's; -1: no mesh joins it to the pair, or it carries nothing.
   int driver{-1};
 };
 

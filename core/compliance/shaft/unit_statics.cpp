@@ -59,7 +59,13 @@ UnitTorques torque_balance(const ShaftsOfPair& shafts, const GearPair& pair) {
     Eigen::FullPivLU<Eigen::MatrixXd> factored(matrix);
     torques.determined = factored.rank() == matrix.cols();
     const Eigen::VectorXd found = matrix.completeOrthogonalDecomposition().solve(-known);
-    for (std::size_t j = 0; j < unknowns.size(); ++j) *unknowns[j] = found[static_cast<Eigen::Index>(j)];
+    // A torque below this part of the largest is round-off of the solution: the mesh or coupling idles.
+    constexpr double round_off = 1e-9;
+    const double least = round_off * std::max({1.0, known.cwiseAbs().maxCoeff(), found.cwiseAbs().maxCoeff()});
+    for (std::size_t j = 0; j < unknowns.size(); ++j) {
+      const double torque = found[static_cast<Eigen::Index>(j)];
+      *unknowns[j] = std::abs(torque) > least ? torque : 0.0;
+    }
     left += matrix * found;
   }
   constexpr double balanced = 1e-9;  // |sum of the torques on a shaft| at most this part of the largest known torque
@@ -126,9 +132,13 @@ bool is_on_pair_gear(const ShaftsOfPair& shafts, const GearPair& pair, Member me
   return std::abs(gear.position - shaft->gear_position) < 0.5 * (gear.face_width + pair[member].data.face_width);
 }
 
-int meshes_per_revolution(ShaftsOfPair shafts, const GearPair& pair, Member member) {
+UnitTorques torques_as_analysed(ShaftsOfPair shafts, const GearPair& pair) {
   if (pair.data.working_flank == WorkingFlank::Left) shafts = mirrored(std::move(shafts));
-  const UnitTorques torques = torque_balance(shafts, pair);
+  return torque_balance(shafts, pair);
+}
+
+int meshes_per_revolution(const ShaftsOfPair& shafts, const GearPair& pair, Member member) {
+  const UnitTorques torques = torques_as_analysed(shafts, pair);
   int meshes = 1;
   for (std::size_t m = 0; m < shafts.unit.meshes.size(); ++m) {
     const auto same = [&](const UnitGear& gear) { return is_on_pair_gear(shafts, pair, member, gear); };
@@ -138,24 +148,36 @@ int meshes_per_revolution(ShaftsOfPair shafts, const GearPair& pair, Member memb
   return meshes;
 }
 
-double turning_hold(const ShaftsOfPair& shafts, int shaft) {
-  const ShaftData& data = *shafts.all()[static_cast<std::size_t>(shaft)];
-  if (!std::isnan(data.torque_position)) return data.torque_position;
-  const std::string name = shafts.names()[static_cast<std::size_t>(shaft)];
-  for (const UnitMesh& mesh : shafts.unit.meshes) {
-    for (const UnitGear& gear : mesh.gears) {
-      if (gear.shaft == name) return gear.position;
-    }
+double turning_hold(const ShaftsOfPair& shafts, int shaft, const UnitTorques& torques) {
+  struct Place {
+    double position, torque;
+  };
+  std::vector<Place> places;
+  const auto index = static_cast<std::size_t>(shaft);
+  const ShaftData& data = *shafts.all()[index];
+  const bool has_coupling = !std::isnan(data.torque_position);
+  if (has_coupling && (torques.coupling.empty() || torques.coupling[index] != 0.0)) return data.torque_position;  // its torque is what the hold takes
+  if (has_coupling) places.push_back({data.torque_position, 0.0});
+  const std::string name = shafts.names()[index];
+  for (std::size_t m = 0; m < shafts.unit.meshes.size(); ++m) {
+    const UnitMesh& mesh = shafts.unit.meshes[m];
+    const double ratio = static_cast<double>(mesh.gears[1].teeth) / mesh.gears[0].teeth, torque = std::abs(torques.mesh[m]);
+    if (mesh.gears[0].shaft == name) places.push_back({mesh.gears[0].position, torque});
+    if (mesh.gears[1].shaft == name) places.push_back({mesh.gears[1].position, ratio * torque});
   }
   for (const UnitLoad& load : shafts.unit.loads) {
-    if (load.shaft == name && load.moment.z() != 0.0) return load.position;
+    if (load.shaft == name && load.moment.z() != 0.0) places.push_back({load.position, std::abs(load.moment.z()) / shafts.unit.reference_torque});
   }
-  return not_given;
+  if (places.empty()) return not_given;
+  constexpr double alike = 1.0 - 1e-9;  // shares of a torque that are equal but for round-off: the first of them holds
+  const double largest = std::ranges::max(places, {}, &Place::torque).torque;
+  return std::ranges::find_if(places, [&](const Place& place) { return place.torque >= alike * largest; })->position;
 }
 
-void settle_turning_holds(ShaftsOfPair& shafts) {
+void settle_turning_holds(ShaftsOfPair& shafts, const GearPair& pair) {
+  const UnitTorques torques = shafts.unit.empty() ? UnitTorques{} : torques_as_analysed(shafts, pair);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
-    if (const auto index = shafts.find(m)) shafts.shaft[m]->held_position = turning_hold(shafts, *index);
+    if (const auto index = shafts.find(m)) shafts.shaft[m]->held_position = turning_hold(shafts, *index, torques);
   }
 }
 

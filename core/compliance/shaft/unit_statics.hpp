@@ -22,7 +22,11 @@ struct UnitTorques {
 
 /// Tangential forces f of meshes and torques of couplings balance each shaft: sum of -r_w f, loads and coupling is 0.
 /// @param shafts  as the pair is analysed, see mirrored(); loads and gears on shafts that are there
+/// What is round-off of this balance is 0: gears and couplings that idle.
 UnitTorques torque_balance(const ShaftsOfPair& shafts, const GearPair& pair);
+
+/// The same of shafts as the study has them.
+UnitTorques torques_as_analysed(ShaftsOfPair shafts, const GearPair& pair);
 
 /// Forces of one mesh on the shafts of its gears, per torque on the first gear: a normal force at the pitch point at mid face, on the
 /// flanks that the torque's sign asks for.
@@ -45,11 +49,14 @@ std::vector<BeamLoad> constant_loads(const ShaftsOfPair& shafts);
 /// How many meshes load the teeth of one of the pair's gears on the flank that the pair loads in a revolution of it: that of the pair, and the unit's on the same gear
 /// whose torque is of the same sign. An idler's second mesh loads the other flank.
 /// @param shafts  as the study has them, without problems
-int meshes_per_revolution(ShaftsOfPair shafts, const GearPair& pair, Member member);
+int meshes_per_revolution(const ShaftsOfPair& shafts, const GearPair& pair, Member member);
 
-/// Where a shaft is held against turning: its coupling, else the first gear of another mesh, else the first load with a torque [mm]; NaN: nowhere.
-double turning_hold(const ShaftsOfPair& shafts, int shaft);
+/// Where a shaft is held against turning: its coupling if that carries torque, else where most of its torque enters or leaves beside the pair's gear, the gear of another
+/// mesh or a load; of several that carry alike the first [mm]. NaN: nowhere.
+/// @param torques  of the unit; of a pair without one nothing
+double turning_hold(const ShaftsOfPair& shafts, int shaft, const UnitTorques& torques);
 /// Tells the pair's shafts, see ShaftData::held_position.
-void settle_turning_holds(ShaftsOfPair& shafts);
+/// @param shafts  as the study has them
+void settle_turning_holds(ShaftsOfPair& shafts, const GearPair& pair);
 
 }  // namespace flankwright

@@ -25,7 +25,7 @@ class Making {
         add({bearing.name.empty() ? names[i] + " " + std::to_string(number) : bearing.name, static_cast<int>(i), -1, not_given, bearing});
       }
       // In the order of the pair's shafts before there was a unit: what holds against turning follows the shaft's bearings.
-      const double hold_at = turning_hold(shafts_, static_cast<int>(i));
+      const double hold_at = turning_hold(shafts_, static_cast<int>(i), torques_);
       made_.turning.push_back(std::isnan(hold_at) ? -1
                                                   : hold({hold_at, Vector3d::Zero(), Vector3d::UnitZ(), static_cast<int>(i)}, {}, rigid_support));
     }

@@ -1,6 +1,7 @@
 #include "core/load/cycle/mesh_model.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -121,8 +122,7 @@ Gap gap_under(const MeshPosition& at, const ConditionGap& gaps, double force) {
 }
 
 MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects,
-                          const MeshPlacement& placement, const PairCompliance* structure, const PairRootStress* root_stress,
-                          const PairCompliance* shafts, const ForEachIndex& for_each) {
+                          const MeshPlacement& placement, const MeshCompliance& compliance, const ForEachIndex& for_each) {
   const ThinSlicePair slices(ThinSlice(pair, material.pinion, material.wheel));
   MeshModel model;
   model.pair = pair;
@@ -130,22 +130,23 @@ MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& materia
   model.contact_modulus = contact_modulus(material.pinion, material.wheel);
   model.calibration = slices.slice().calibration();
   model.iso = slices.slice().iso();
-  return mesh_with_effects(std::move(model), resolution, effects, placement, structure != nullptr ? *structure : slices, root_stress, shafts,
-                           for_each);
+  MeshCompliance yielding = compliance;
+  if (yielding.structure == nullptr) yielding.structure = &slices;
+  return mesh_with_effects(std::move(model), resolution, effects, placement, yielding, for_each);
 }
 
 MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
-                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts,
-                            const ForEachIndex& for_each) {
+                            const MeshCompliance& compliance, const ForEachIndex& for_each) {
+  assert(compliance.structure != nullptr);
   if (!effects.make_compliant()) throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   if (resolution.phases.empty()) throw InvalidInput("cycle.phases", "none", "at least one phase");
   if (resolution.quadrature.intervals < 1) {
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
   }
   if (placement.other_flanks != model.placement.other_flanks) model.pair = model.pair.on_other_flanks();
-  const OnTouchingFlanks touching_structure(&structure, placement.other_flanks, "this structure");
-  const OnTouchingFlanks touching_root_stress(root_stress, placement.other_flanks, "this model of root stress");
-  const OnTouchingFlanks touching_shafts(shafts, placement.other_flanks, "shafts");
+  const OnTouchingFlanks touching_structure(compliance.structure, placement.other_flanks, "this structure");
+  const OnTouchingFlanks touching_root_stress(compliance.root_stress, placement.other_flanks, "this model of root stress");
+  const OnTouchingFlanks touching_shafts(compliance.shafts, placement.other_flanks, "shafts");
   const GearPair& pair = model.pair;
   const double axial_offset = placement.misalignment.axial_offset;
   const double face_start = std::max(pair.pinion.face.begin, axial_offset + pair.wheel.face.begin);
@@ -157,10 +158,10 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   model.placement = placement;
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
-  model.half_space = structure.half_space_corrections();
-  model.couples_points = structure.couples_points();
+  model.half_space = compliance.structure->half_space_corrections();
+  model.couples_points = compliance.structure->couples_points();
   const std::shared_ptr<const PairCompliance> linearised =
-      shafts != nullptr && shafts->depends_on_load() ? touching_shafts.get()->linearised_at(placement.torque) : nullptr;
+      compliance.shafts != nullptr && compliance.shafts->depends_on_load() ? touching_shafts.get()->linearised_at(placement.torque) : nullptr;
   const MeshParts parts{pair,
                         model.material,
                         placement,

@@ -104,24 +104,28 @@ MeshPlacement placement_of(GapModel gap, const FlankCondition& condition, const 
 /// @param force  normal force of the mesh [N]
 Gap gap_under(const MeshPosition& at, const ConditionGap& gaps, double force);
 
+/// What yields under the loads of a mesh.
+struct MeshCompliance {
+  const PairCompliance* structure{nullptr};    ///< null: thin slices
+  const PairRootStress* root_stress{nullptr};  ///< null: none
+  const PairCompliance* shafts{
+      nullptr};  ///< added to the structure, coupling all points; null: rigid; linearised at the placement's torque where they depend on the load
+};
+
 /// Builds points, influence matrix and contact laws at every phase: asks the effects, stage by stage.
 /// @param effects      the effects that are on
 /// @param placement    as MeshPlacement::of() makes it
-/// @param structure    structural compliance; null: thin slices
-/// @param root_stress  null: none
-/// @param shafts       added to it, coupling all points; null: rigid shafts; linearised at the placement's torque where they depend on the load
 /// @param for_each     makes the positions, which do not hang on each other; nothing: one after the other
 /// @throws InvalidInput where no effect makes the points compliant, no phase is given, the gears do not overlap
 ///                       axially, or structure, root stress or shafts do not know the other flanks that the placement asks for
 MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects = {},
-                          const MeshPlacement& placement = {}, const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
-                          const PairCompliance* shafts = nullptr, const ForEachIndex& for_each = {});
+                          const MeshPlacement& placement = {}, const MeshCompliance& compliance = {}, const ForEachIndex& for_each = {});
 
 /// The same gears with other effects or another placement: data of gears and materials alone are taken from the model,
 /// the rest is built as by make_mesh_model().
+/// @param compliance     its structure is not null
 /// @throws InvalidInput  as make_mesh_model()
 MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
-                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts,
-                            const ForEachIndex& for_each = {});
+                            const MeshCompliance& compliance, const ForEachIndex& for_each = {});
 
 }  // namespace flankwright

@@ -191,7 +191,9 @@ void LoadSolver::work_on(const LoadProblemView& problem, const Eigen::VectorXd& 
     for (Eigen::Index i = 0; i < size; ++i) to[i] = from[points_[static_cast<std::size_t>(i)]];
     hessian_.col(j) = weight_[j] * weight_.cwiseProduct(influence_.col(j));
   }
-  has_negative_influence_ = influence_.minCoeff() < 0.0;
+  const double least = influence_.minCoeff(), most = influence_.maxCoeff();
+  has_negative_influence_ = least < 0.0;
+  largest_influence_ = std::max(most, -least);
   stiff_diagonal_ = hessian_.diagonal();
   laws_.clear();
   if (!problem.laws.empty()) {
@@ -232,22 +234,29 @@ double LoadSolver::deflection_scale() const {
   return (at_.loads.array() > 0.0).select(magnitudes + at_.local, 0.0).maxCoeff();
 }
 
-double LoadSolver::residual() const {
+/// @param reached  a residual above it may be returned smaller than it is, though not below `reached`
+double LoadSolver::residual(double reached) const {
   double worst = 0.0;
   for (Eigen::Index i = 0; i < at_.loads.size(); ++i) {
     const double remaining = at_.approach[i] - at_.multiplier;
     worst = std::max(worst, at_.loads[i] > 0.0 ? std::abs(remaining) : -remaining);
   }
-  const double balance = std::abs(weight_.dot(at_.loads) - force_) / force_;
+  const double carried = weight_.dot(at_.loads), balance = std::abs(carried - force_) / force_;
+  // No point's scale exceeds this one, which takes one pass over the points instead of one over the matrix.
+  const double largest_scale = largest_influence_ * carried + at_.local.maxCoeff();
+  if (worst > reached * largest_scale) return std::max(balance, worst / largest_scale);
   return std::max(balance, worst / deflection_scale());
 }
 
 /// @returns whether the answer on the working set was reached
 bool LoadSolver::newton(const LoadOptions& options, LoadDistribution& result) {
   for (;; ++result.iterations) {
-    result.kkt_residual = residual();
+    result.kkt_residual = residual(options.tolerance);
     if (result.kkt_residual <= options.tolerance && settled()) return true;
-    if (result.iterations == options.max_iterations) return false;
+    if (result.iterations == options.max_iterations) {
+      result.kkt_residual = residual(std::numeric_limits<double>::infinity());
+      return false;
+    }
     step();
     result.factorisations += model_.factorisations();
   }

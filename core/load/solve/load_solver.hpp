@@ -50,7 +50,7 @@ class LoadSolver {
   void evaluate(Iterate& at);
   void step();
   double deflection_scale() const;
-  double residual() const;
+  double residual(double reached) const;
   double slope_along(double t) const;
   bool settled();
   double condition() const;
@@ -67,6 +67,7 @@ class LoadSolver {
   Eigen::VectorXd stiff_diagonal_;       ///< of aKa
   Eigen::VectorXd floor_slope_;          ///< c' at load_floor_; NaN until computed
   bool has_negative_influence_{false};
+  double largest_influence_{0.0};  ///< largest |K_ij| [mm/N]
   Iterate at_, next_;
   Eigen::VectorXd gradient_, forces_;
   QuadraticProgram model_;

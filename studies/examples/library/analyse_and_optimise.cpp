@@ -24,7 +24,9 @@ int main() {
   // One torque and one misalignment, as many points and positions as the figures need.
   FlankCondition misaligned;
   misaligned.misalignment.mesh_misalignment = 20 * units::um;
-  const auto mesh_for = [&](const MeshResolution& resolution) { return make_mesh_model(pair, {}, resolution, {}, {}, structures.pair.get()); };
+  const auto mesh_for = [&](const MeshResolution& resolution) {
+    return make_mesh_model(pair, {}, resolution, {}, {}, {.structure = structures.pair.get()});
+  };
   const ResolvedAnalysis analysis = analyse_resolved(mesh_for, misaligned, torque);
   const CycleSummary& shown = analysis.resolved.summary;
   std::printf("20 um misaligned: transmission error %.2f um peak to peak, contact stress %.0f MPa\n", shown.te_peak_to_peak / units::um,

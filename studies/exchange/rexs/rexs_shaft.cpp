@@ -162,7 +162,8 @@ class ShaftReading {
       if (held.axial_stiffness > 0.0) note(bearing, "its axial_stiffness is not taken, as it supports no axial force");
       held.axial_stiffness = 0.0;
     } else {
-      note(bearing, fmt::format("that it supports axial forces of the {} direction alone is not taken", absorption->text));
+      note(bearing, fmt::format("its axial_force_absorption \"{}\" is not taken: a bearing supports axial forces of both directions or none",
+                                absorption->text));
     }
   }
 

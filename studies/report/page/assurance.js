@@ -80,8 +80,8 @@ function assurance_panel(plot, results) {
     rule_fact(optimise),
     ended ? ["Search", ...ended] : null,
     starts_fact(optimise),
-    is_number(share) ? ["Fresh draws", `better in ${fmt(100 * share, 3)} % of ${fmt(validation.samples, 7)}`, share > 0.95 ? "good" : share < 0.5 ? "bad" : null]
-      : ["Fresh draws", "none: [optimise.validation]"],
+    scatter && list(record(scatter.fresh).designs).length > 0 ? null : is_number(share) ? ["Fresh draws", `better in ${fmt(100 * share, 3)} % of ${fmt(validation.samples, 7)}`, share > 0.95 ? "good" : share < 0.5 ? "bad" : null]
+      : ["Fresh draws", `none: ${scatter ? "optimise.scatter.fresh" : "[optimise.validation]"}`],
   ]));
   if (list(validation.designs).length) draw_spread(plot, validation, unit);
 }

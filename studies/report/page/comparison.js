@@ -98,16 +98,19 @@ function build_comparison(results, body) {
   const optimise = record(results.optimise), after = record(optimise.after);
   const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
   const designs = compared_designs(optimise);
-  const note = (value) => percent_change(after.objective, value);
+  // Of the design that the others are compared with, over the listed scenes: before gears were drawn where they were.
+  const value = record(optimise.comparison).optimum_objective ?? after.objective;
+  const note = (other) => percent_change(value, other);
   // Without a design that keeps the constraints the one shown is no optimum.
   const infeasible = optimise.status === "infeasible", shown = infeasible ? "design shown" : "optimum";
+  if (typeof optimise.assessed_design === "string") body.append(el("p", { class: "fine" }, `The optimum here is ${optimise.assessed_design}.`));
   figure(figure_grid(body), {
     title: `${capital(name)} of the ${shown} and other designs`,
     wide: true,
     caption: `All designs are analysed over the same scenes. A rule may use modifications that the study does not vary. ${comparison_caption(record(optimise.comparison))} Hollow bars violate a constraint.`,
   }, (plot) => draw_bars(plot, {
     label: "Objective of every design compared", unit,
-    rows: [{ label: shown, value: after.objective, colour: design_colour("after"), hollow: infeasible, note: `${fmt(after.objective)} ${unit}` },
+    rows: [{ label: shown, value, colour: design_colour("after"), hollow: infeasible, note: `${fmt(value)} ${unit}` },
       ...designs.map((design) => ({ label: design.name, value: design.objective, hollow: design.feasible === false,
         colour: design.kind === "rule" ? design_colour("before") : sequence_colour(2), note: note(design.objective) }))],
   }));

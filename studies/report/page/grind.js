@@ -127,7 +127,7 @@ function small_topographies(plot, results, height) {
     const area = { z: [grid.z[0], grid.z[grid.z.length - 1]], r: [grid.r[0], grid.r[grid.r.length - 1]] };
     const low = minimum(grid.rows.flat()), levels = round_ticks(low, peak, 6).filter((level) => level > low && level < peak);
     const { canvas, pen } = sharp_canvas(width, height, `Topography to grind on the ${gear}, contour lines in µm`);
-    const frame = { left: 50, top: 24, width: width - 58, height: height - 62 };
+    const frame = { left: 58, top: 24, width: width - 66, height: height - 62 };
     const to_x = (z) => frame.left + (frame.width * (z - area.z[0])) / (area.z[1] - area.z[0]);
     const to_y = (r) => frame.top + frame.height * (1 - (r - area.r[0]) / (area.r[1] - area.r[0]));
     paint_raster(pen, frame, grid_raster(grid, area), scale);

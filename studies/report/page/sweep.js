@@ -10,12 +10,16 @@ const sweep_outputs = (sweep) => list(sweep.outputs).map((name) => [name, record
 /** The main output of a sweep. */
 const leading_output = (outputs) => (outputs.find(([name]) => name === "peak_contact_stress_MPa") || outputs[0] || [""])[0];
 
+/** From here on one sample is no more than a per cent of all. */
+const SAMPLES_OF_A_PERCENT = 100;
+
 function sweep_headline(sweep) {
   const outputs = sweep_outputs(sweep), name = leading_output(outputs), of = record(record(sweep.statistics)[name]);
   if (!is_number(of.mean)) return "No sample of the sweep has results";
   const unit = sweep_unit(of.unit);
   return `${capital(words(name))} ${fmt(of.mean, 3)} ${unit} on average, σ ${fmt(of.std, 2)} ${unit}; `
-    + `99 % of ${fmt(sweep.samples, 9)} samples below ${fmt(record(of.quantiles)["99 %"], 3)} ${unit}`;
+    + (of.samples >= SAMPLES_OF_A_PERCENT ? `99 % of ${fmt(of.samples, 9)} samples below ${fmt(record(of.quantiles)["99 %"], 3)} ${unit}`
+      : `worst of ${fmt(of.samples, 9)} samples ${fmt(record(of.worst).value, 3)} ${unit}`);
 }
 
 function sweep_tiles(sweep) {
@@ -97,10 +101,11 @@ function sweep_choice(parent, label, options, state, key, redraw) {
 }
 
 /** Total indices as bars, the first-order part filled, both with their standard errors; largest on top. */
-function draw_tornado(plot, indices, most = Infinity) {
+function draw_tornado(plot, indices, most = Infinity, of_grid = false) {
   const rows = Object.entries(indices).map(([path, index]) => ({ path, ...record(index) })).filter((row) => is_number(row.total))
     .sort((a, b) => b.total - a.total).slice(0, most);
-  if (rows.length === 0) return plot.append(el("p", { class: "caption" }, "This output does not vary, or there are too few samples."));
+  if (rows.length === 0) return plot.append(el("p", { class: "caption" }, of_grid ? "A grid has no Sobol indices: the sampler \"sobol\" has."
+    : "This output does not vary, or there are too few samples."));
   const width = Math.max(320, plot.clientWidth || 900), row_height = 28, top = 6, bottom = 42;
   const left = Math.min(0.42 * width, 24 + 7 * Math.max(...rows.map((row) => words(row.path).length))), right = 64;
   const height = top + bottom + row_height * rows.length;
@@ -142,7 +147,7 @@ function build_indices(results, body) {
     const area = el("div"), choices = el("div");
     const draw = () => {
       area.replaceChildren();
-      draw_tornado(area, record(record(record(sweep.statistics)[state.output]).indices));
+      draw_tornado(area, record(record(record(sweep.statistics)[state.output]).indices), Infinity, sweep.sampler === "grid");
     };
     sweep_choice(choices, "Output", options, state, "output", draw);
     plot.append(choices, area);
@@ -164,6 +169,17 @@ function build_indices(results, body) {
   });
 }
 
+/** Ticks of a map's axis as shares of it, and the value at a share. Each of a few levels has a strip of its own, as wide as the others. */
+function response_axis(parameter, title) {
+  const { low, high, levels } = parameter.range;
+  if (Array.isArray(levels)) {
+    const strip = (share) => Math.min(levels.length - 1, Math.floor(share * levels.length));
+    return { title, ticks: levels.map((level, i) => ({ share: (i + 0.5) / levels.length, text: fmt(level) })), at: (share) => fmt(levels[strip(share)], 3) };
+  }
+  const ticks = round_ticks(low, high, 6).map((tick) => ({ share: (tick - low) / (high - low || 1), text: fmt(tick) }));
+  return { title, ticks, at: (share) => fmt(low + share * (high - low), 3) };
+}
+
 /** A response map on a canvas, with its colour bar and a read-out. */
 function draw_response(plot, sweep, state) {
   const parameters = list(sweep.parameters).map(record), of = record(record(sweep.statistics)[state.output]), unit = sweep_unit(of.unit);
@@ -178,7 +194,7 @@ function draw_response(plot, sweep, state) {
   const scale = { low: minimum(values), high: maximum(values) };
   const along = (path) => parameters.find((p) => p.path === path);
   const titled = (p) => words(p.path) + (sweep_unit(p.unit) ? ` [${sweep_unit(p.unit)}]` : "");
-  const [x, y] = [along(state.x), along(state.y)].map((p) => ({ low: p.range.low, high: p.range.high, title: titled(p) }));
+  const [x, y] = [along(state.x), along(state.y)].map((p) => response_axis(p, titled(p)));
   const height = 380, width = Math.min(720, (plot.clientWidth || 900) - 100), left = 66, top = 26, right = 14, bottom = 44;
   const { canvas, pen } = sharp_canvas(width, height, `Mean ${words(state.output)} over ${x.title} and ${y.title}`);
   const frame = { left, top, width: width - left - right, height: height - top - bottom };
@@ -188,11 +204,10 @@ function draw_response(plot, sweep, state) {
   pen.fillStyle = css_colour("muted");
   pen.textAlign = "center";
   pen.textBaseline = "middle";
-  const share = (range, value) => (value - range.low) / (range.high - range.low || 1);
-  for (const tick of round_ticks(x.low, x.high, 6)) pen.fillText(fmt(tick), left + frame.width * share(x, tick), top + frame.height + 13);
+  for (const { share, text } of x.ticks) pen.fillText(text, left + frame.width * share, top + frame.height + 13);
   pen.fillText(x.title, left + frame.width / 2, top + frame.height + 33);
   pen.textAlign = "right";
-  for (const tick of round_ticks(y.low, y.high, 6)) pen.fillText(fmt(tick), left - 7, top + frame.height * (1 - share(y, tick)));
+  for (const { share, text } of y.ticks) pen.fillText(text, left - 7, top + frame.height * (1 - share));
   pen.save();
   pen.translate(10, top + frame.height / 2);
   pen.rotate(-Math.PI / 2);
@@ -206,7 +221,7 @@ function draw_response(plot, sweep, state) {
     const up = 1 - ((event.clientY - box.top) * (height / box.height) - top) / frame.height;
     if (across < 0 || across >= 1 || up < 0 || up >= 1) return (read_out.textContent = "\u00a0");
     const mean = at(Math.floor(across * columns), Math.floor(up * height_parts));
-    read_out.textContent = `${x.title} ${fmt(x.low + across * (x.high - x.low), 3)}, ${y.title} ${fmt(y.low + up * (y.high - y.low), 3)}:  `
+    read_out.textContent = `${x.title} ${x.at(across)}, ${y.title} ${y.at(up)}:  `
       + (is_number(mean) ? `${fmt(mean)} ${unit}` : "no sample");
   });
   plot.append(el("div", { class: "maps" }, canvas, colour_bar(scale, unit, height)), read_out);
@@ -223,8 +238,8 @@ function build_response_maps(results, body) {
   figure(figure_grid(body), {
     title: "An output over two parameters",
     wide: true,
-    caption: "Mean over the samples in each cell of the plane, over all values of the other parameters. Cells without samples are blank. "
-      + "The two parameters with the largest total indices are shown first.",
+    caption: "Mean over the samples in each cell of the plane, over all values of the other parameters. Cells without samples are blank."
+      + (sweep.sampler === "grid" ? "" : " Of the parameters that are no draws of a gear, the two with the largest total indices are shown first."),
   }, (plot) => {
     const area = el("div"), choices = el("div");
     const draw = () => {

@@ -84,9 +84,9 @@ function sweep_first(first, results) {
   panel(first, { title: "Scatter of the outputs", span: 6, href: "scatter" }, (plot) => plot.append(
     el("div", { class: "small-multiples two" }, ...shown.map(([name, of]) => el("div", {}, draw_histogram(name, of)))),
     el("p", { class: "fine" }, "Full line: mean; dashed: 1 % and 99 % of the samples.")));
-  panel(first, { title: `Causes of the scatter of the ${words(leading)}`, span: 6, href: "indices" },
-    (plot) => draw_tornado(plot, record(record(record(sweep.statistics)[leading]).indices), 9));
-  panel(first, { title: `How sure: ${words(leading)}`, span: 8, href: "scatter" }, (plot) => plot.append(facts(sweep_facts(sweep))));
+  panel(first, { title: leading ? `Causes of the scatter of the ${words(leading)}` : "Causes of the scatter", span: 6, href: "indices" },
+    (plot) => draw_tornado(plot, record(record(record(sweep.statistics)[leading]).indices), 9, sweep.sampler === "grid"));
+  panel(first, { title: leading ? `How sure: ${words(leading)}` : "How sure", span: 8, href: "scatter" }, (plot) => plot.append(facts(sweep_facts(sweep))));
   panel(first, { title: "What it costs", span: 4, href: "effects" }, (plot) => cost_panel(plot, results));
 }
 

@@ -1,5 +1,7 @@
 #include "studies/tasks/analyse/analyse_keys.hpp"
 
+#include <algorithm>
+
 #include "studies/study_file/key_rows.hpp"
 #include "studies/study_file/left_out_effects.hpp"
 
@@ -53,6 +55,13 @@ void read_gradients(StudyReading& reading) {
 void check_gradients(StudyReading& reading) {
   const Study& study = reading.builder.study;
   for (const GradientParameter& p : study.gradients) require_effect_of(reading, "analyse.gradients", p.path);
+  const auto is_torque = [](const GradientParameter& p) { return p.path == "load.torque"; };
+  if (std::ranges::any_of(study.gradients, is_torque) && ShaftsOfPair{study.shaft, study.unit}.depends_on_load()) {
+    reading.refuse_key(
+        "analyse.gradients",
+        "none by load.torque with a bearing whose stiffness depends on the load or that has a clearance: it yields in another way at each torque, "
+        "which the derivative would leave out. Two analyses at torques that differ by a few per cent show the change");
+  }
   if (!study.gradients.empty() && study.fidelity.compliance == ComplianceModel::Rigid) {
     reading.refuse_key("analyse.gradients",
                        "none with a rigid compliance, which has no loaded contact: allowed is \"thin_slice\", \"fitted\" or \"fe\"");

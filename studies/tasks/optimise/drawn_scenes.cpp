@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "optimize/sampling/sample_design.hpp"
+#include "studies/study_file/scene_placement.hpp"
 #include "studies/study_file/sweep_value.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
 
@@ -97,6 +98,7 @@ std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScen
   if (drawn.samples == 0 || tolerances.empty()) return std::nullopt;
   const std::vector<OperatingState> states = operating_states(study, tolerances);
   const SampleDesign design(Sampler::Sobol, drawn.samples, static_cast<int>(tolerances.size()), drawn.seed);
+  const GearPair pair = make_gear_pair(study.pair);
   for (int i = 0; i < drawn.samples; ++i) {
     const std::vector<double> point = design.point(i);
     for (std::size_t k = 0; k < tolerances.size(); ++k) {
@@ -104,6 +106,12 @@ std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScen
       const auto refuses = [&](const OperatingState& state) { return !is_accepted(state.scene, tolerances[k], value); };
       if (std::ranges::any_of(states, refuses))
         return RefusedDraw{tolerances[k].path, i, value, allowed_values(*study_keys().at(tolerances[k].path))};
+    }
+    for (const OperatingState& state : states) {
+      Scene scene = state.scene;
+      for (std::size_t k = 0; k < tolerances.size(); ++k) put(scene, tolerances[k], tolerances[k].distribution.quantile(point[k]));
+      for (const PlacementProblem& problem : placement_problems(pair, scene.misalignment))
+        return RefusedDraw{problem.key, i, problem.value, problem.allowed};
     }
   }
   return std::nullopt;

@@ -30,8 +30,17 @@ class ListedScenes {
   }
   /// Whether a scene has a torque by which it differs from another of its name.
   bool names_torque() const { return names_torque_; }
-  /// Of a scene [N·m]; null where a load spectrum has many.
-  Json torque_json(const DesignScene& scene) const { return spectra_ ? Json() : Json(in_Nm(scene.torque)); }
+  /// Of a scene [N·m]; NaN where a load spectrum has many.
+  double torque(const DesignScene& scene) const { return spectra_ ? not_given : in_Nm(scene.torque); }
+  /// The same; null where it is NaN.
+  Json torque_json(const DesignScene& scene) const { return spectra_ ? Json() : Json(torque(scene)); }
+  /// Of a load case, or of a whole load spectrum.
+  double weight(const DesignScene& scene) const {
+    if (!spectra_) return scene.weight;
+    double sum = 0.0;
+    for (const DesignScene& of : task_.scenes) sum += of.spectrum == scene.spectrum ? of.weight : 0.0;
+    return sum;
+  }
 
  private:
   const DesignTask& task_;

@@ -142,9 +142,8 @@ void check_draws(StudyReading& reading) {
   for (const DrawnScenes& drawn : all) {
     const std::optional<RefusedDraw> refused = find_refused_draw(study, drawn);
     if (!refused) continue;
-    return reading.refuse_key(
-        "optimise.tolerances." + refused->path,
-        fmt::format("draw {} of {} has {:.6g}, allowed are draws of {}", refused->draw + 1, drawn.samples, refused->value, refused->allowed));
+    return reading.refuse_key("optimise.tolerances." + refused->path, fmt::format("draw {} of {} has {:.6g}: allowed is {}", refused->draw + 1,
+                                                                                  drawn.samples, refused->value, refused->allowed));
   }
 }
 

@@ -212,7 +212,7 @@ Json optimise_json(const StudyResults& results) {
   for (const std::size_t s : listed.indices()) {
     scenes.push_back({{"name", task.scenes[s].name},
                       {"torque_Nm", listed.torque_json(task.scenes[s])},
-                      {"weight", task.scenes[s].weight},
+                      {"weight", listed.weight(task.scenes[s])},
                       {"before", design.before.scene_measures[s]},
                       {"after", design.after.scene_measures[s]},
                       {"before_error", found.before_errors.scene_measures[s]},

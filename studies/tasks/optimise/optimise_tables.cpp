@@ -25,10 +25,11 @@ namespace {
 std::string scenes_csv(const StudyResults& results) {
   std::string csv = "scene,torque_Nm,weight,before,after\n";
   const OptimiseResults& found = optimised(results);
-  for (std::size_t s = 0; s < found.task.scenes.size(); ++s) {
+  const ListedScenes listed(found.task);
+  for (const std::size_t s : listed.indices()) {
     const DesignScene& scene = found.task.scenes[s];
-    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), in_Nm(scene.torque), scene.weight, found.design.before.scene_measures[s],
-                       found.design.after.scene_measures[s]);
+    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), csv_field(listed.torque(scene)), listed.weight(scene),
+                       found.design.before.scene_measures[s], found.design.after.scene_measures[s]);
   }
   return csv;
 }

@@ -85,6 +85,7 @@ void add_optimise_json(const StudyResults& results, Json& json) {
     json["optimise"]["grinding_choices"] = grinding_choices_json(found.design, found.task, statistic_of_choices(results));
   if (found.scatter) json["optimise"]["scatter"] = scatter_json(*found.scatter, found.task, results.study);
   add_assessment(found.assessment, found.task, results.study, json["optimise"]);
+  json["optimise"]["comparison"]["optimum_objective"] = found.search_work.objective_at_positions;
 }
 
 void write_store(const StudyResults& results, const std::filesystem::path& folder) { write_results_store(folder / "results.sqlite", results); }

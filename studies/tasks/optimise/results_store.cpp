@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "studies/base/database.hpp"
 #include "studies/base/version.hpp"
+#include "studies/tasks/optimise/listed_scenes.hpp"
 #include "studies/tasks/optimise/optimise_results.hpp"
 
 namespace flankwright::studies {
@@ -61,9 +62,10 @@ void add_tables(Database& database, const StudyResults& results) {
     variables.row(v.path, v.unit(), v.lower * factor, v.upper * factor, design.before.variables[i] * factor, design.after.variables[i] * factor);
   }
   Statement scenes(database, "INSERT INTO scenes VALUES (?, ?, ?, ?, ?)");
-  for (std::size_t s = 0; s < task.scenes.size(); ++s) {
+  const ListedScenes listed(task);
+  for (const std::size_t s : listed.indices()) {
     const DesignScene& scene = task.scenes[s];
-    scenes.row(scene.name, scene.torque / units::newton_metre, scene.weight, design.before.scene_measures[s], design.after.scene_measures[s]);
+    scenes.row(scene.name, listed.torque(scene), listed.weight(scene), design.before.scene_measures[s], design.after.scene_measures[s]);
   }
   Statement history(database, "INSERT INTO history VALUES (?, ?, ?)");
   for (const SolverStep& step : design.history) {

@@ -9,8 +9,10 @@
 #include "core/rating/shaft_misalignment.hpp"
 #include "studies/analysis/case_life.hpp"
 #include "studies/base/json_format.hpp"
+#include "studies/study_file/scene_placement.hpp"
 #include "studies/study_file/study_life.hpp"
 #include "studies/tasks/sweep/sweep_table.hpp"
+#include "studies/analysis/rims.hpp"
 
 namespace flankwright::studies {
 
@@ -132,6 +134,9 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
   try {
     SweptCondition swept = SweptCondition::of(study);
     for (std::size_t j = 0; j < values.size(); ++j) set_swept(swept, study.table<SweepTable>().parameters[j], values[j]);
+    if (const auto problems = placement_problems(nominal_.pair, swept.scene.misalignment); !problems.empty()) {
+      throw SampleFailure{problems.front().key + ": allowed is " + problems.front().allowed};
+    }
     return {"", is_loaded() ? loaded_outputs(swept) : unloaded_outputs(apply_effects(nominal_.effects, swept.flanks()))};
   } catch (const InvalidInput& problem) {
     return {problem.field() + ": allowed is " + problem.allowed(), {}};  // without the value, which the sample has
@@ -187,9 +192,11 @@ std::vector<double> SampleAnalysis::case_outputs(SampleCase& of, const SweptCond
   if (!is_nominal) {
     auto made = std::ranges::find_if(meshes, [&](const auto& mesh) { return mesh->placement == placement; });
     if (made == meshes.end()) {
-      made = meshes.insert(made, std::make_unique<MeshModel>(make_mesh_model(
-                                     nominal_.pair, study.material, {study.fidelity.quadrature, nominal_.phases}, nominal_.mesh_effects, placement,
-                                     nominal_.structures.pair.get(), nominal_.structures.root_stress.get(), nominal_.shafts.get())));
+      made = meshes.insert(
+          made,
+          std::make_unique<MeshModel>(make_mesh_model(
+              nominal_.pair, study.material, {study.fidelity.quadrature, nominal_.phases}, nominal_.mesh_effects, placement,
+              {.structure = nominal_.structures.pair.get(), .root_stress = nominal_.structures.root_stress.get(), .shafts = nominal_.shafts.get()})));
     }
     of.model = made->get();
   }
@@ -200,13 +207,13 @@ std::vector<double> SampleAnalysis::case_outputs(SampleCase& of, const SweptCond
   }
   const MeshAt made_at = [&](const std::vector<double>& phases) {
     return make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects, placement,
-                           nominal_.structures.pair.get(), nullptr, nominal_.shafts.get());
+                           {.structure = nominal_.structures.pair.get(), .shafts = nominal_.shafts.get()});
   };
   const MeshAt mesh_at = is_nominal ? memory_.remembering(made_at) : made_at;
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
   loaded.summary = resolve_cycle(model, loaded.cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
   const double by_shafts = nominal_.shafts ? shaft_misalignment(shafts_under(*nominal_.shafts, model, torque), model, loaded.cycle) : 0.0;
-  const IsoDeviations deviations = iso_deviations(model.pair, condition, by_shafts);
+  const IsoDeviations deviations = iso_deviations(model.pair, condition, by_shafts + rim_opening(nominal_, model, torque));
   loaded.iso = iso_load_factors(model.pair, model.iso, deviations, torque, model.face_width);
   std::vector<double> values;
   for (const CycleEntry& entry : entries_) values.push_back(entry.value(loaded.summary));

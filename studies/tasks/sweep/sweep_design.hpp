@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <variant>
 
 #include "optimize/sampling/sensitivity_design.hpp"
@@ -15,8 +16,12 @@ class SweepDesign {
 
   long long samples() const { return samples_; }
   std::size_t parameters() const { return parameters_.size(); }
-  /// Levels of a parameter; 0: continuous.
-  std::size_t levels(std::size_t parameter) const { return static_cast<std::size_t>(parameters_[parameter].distribution.levels()); }
+  /// Levels of a parameter, rising, without repetition; none of a continuous distribution.
+  std::vector<double> levels(std::size_t parameter) const {
+    const std::vector<double>& values = parameters_[parameter].distribution.level_values();
+    const std::set<double> sorted(values.begin(), values.end());
+    return {sorted.begin(), sorted.end()};
+  }
   /// Whether a parameter's values are numbers of draws, without an order that means anything.
   bool is_draw(std::size_t parameter) const { return parameters_[parameter].pitch.has_value(); }
   /// Consecutive samples that belong together for Sobol indices; 0: the design gives none.

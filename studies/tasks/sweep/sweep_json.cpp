@@ -76,6 +76,7 @@ Json sweep_json(const StudyResults& results) {
                           {"unit", p.unit},
                           {"distribution", p.in_words},
                           {"range", {{"low", range.low}, {"high", range.high}, {"counts", range.counts}}}});
+    if (!range.levels.empty()) parameters.back()["range"]["levels"] = range.levels;
   }
   for (std::size_t k = 0; k < statistics.outputs.size(); ++k) {
     outputs[statistics.outputs[k].output.name] = output_json(results, statistics.outputs[k], statistics.worst[k]);

@@ -152,8 +152,18 @@ void check_sweep(StudyReading& reading) {
       return reading.refuse_key("sweep.parameters." + keys.second, "overlaps the parameter " + keys.first + "; allowed is one of them");
     }
   }
-  for (const SweepParameter& p : reading.builder.study.table<SweepTable>().parameters) {
-    require_effect_of(reading, "sweep.parameters." + p.path, p.path);
+  for (const SweepParameter& p : study.table<SweepTable>().parameters) {
+    std::string given_at = "sweep.parameters." + p.path;
+    if (!reading.positions.contains(given_at)) given_at.resize(given_at.rfind('.'));  // one of the errors that a class covers
+    const auto is_said = [&](const StudyProblem& problem) { return problem.key == given_at; };
+    if (std::ranges::none_of(reading.problems, is_said)) require_effect_of(reading, given_at, p.path);
+    const Member m = study_keys().at(p.path)->member;
+    const GrindingKind kind = study.modification[m].process.kind;
+    const bool twists = kind == GrindingKind::GeneratingGrinding || kind == GrindingKind::FormGrinding;
+    if (p.path.ends_with(".twist_compensation") && !twists) {
+      reading.refuse_key(given_at,
+                         std::string("has no effect: allowed is ") + name_of(m) + ".process = \"generating_grinding\" or \"form_grinding\" with it");
+    }
   }
   check_design(reading);
   if (reading.problems.empty()) set_nominal(reading);

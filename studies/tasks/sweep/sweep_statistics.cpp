@@ -151,6 +151,10 @@ void read_quantiles(SweepStore& store, long long end, std::size_t output, Output
 }  // namespace
 
 std::size_t Histogram::part(double value) const {
+  if (!levels.empty()) {
+    const auto away = [&](double level) { return std::abs(level - value); };
+    return static_cast<std::size_t>(std::ranges::min_element(levels, {}, away) - levels.begin());
+  }
   if (!(high > low)) return 0;
   const auto n = static_cast<double>(counts.size());
   return std::min(counts.size() - 1, static_cast<std::size_t>(std::max(0.0, n * ((value - low) / (high - low)))));
@@ -189,8 +193,10 @@ SweepStatistics sweep_statistics(SweepStore& store, const SweepDesign& design, c
   const double side = std::sqrt(static_cast<double>(statistics.samples) / samples_per_place);
   const std::size_t parts = std::clamp(static_cast<std::size_t>(side), fewest_map_parts, most_map_parts);
   for (std::size_t j = 0; j < design.parameters(); ++j) {
-    const std::size_t levels = design.levels(j);
-    statistics.parameters[j].counts.assign(levels >= 1 && levels <= most_levels_shown ? levels : parts, 0);
+    Histogram& of = statistics.parameters[j];
+    of.levels = design.levels(j);
+    if (of.levels.size() > most_levels_shown) of.levels.clear();
+    of.counts.assign(of.levels.empty() ? parts : of.levels.size(), 0);
   }
   read_maps(store, design, statistics);
   read_indices(store, design, statistics);

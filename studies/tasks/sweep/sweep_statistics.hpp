@@ -13,11 +13,12 @@ namespace flankwright::studies {
 /// Probabilities of the quantiles that are reported.
 inline constexpr std::array<double, 7> quantile_shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
 
-/// Counts over equal parts of low .. high.
+/// Counts over equal parts of low .. high, or of each of a few levels.
 struct Histogram {
   double low{not_given}, high{not_given};
   std::vector<long long> counts;
-  /// Which part a value falls to; the ends belong to the first and the last.
+  std::vector<double> levels{};  ///< rising, one a part; empty: parts are equal
+  /// Which part a value falls to, of levels the nearest; the ends belong to the first and the last.
   std::size_t part(double value) const;
 };
 

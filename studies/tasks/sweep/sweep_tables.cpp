@@ -90,7 +90,9 @@ std::string sweep_summary(const StudyResults& results) {
   const SweepStatistics& s = statistics_of(results);
   std::string out =
       fmt::format("{:<36}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>12}\n", "over the samples", "mean", "std", "1 %", "99 %", "worst", "of sample");
+  if (s.failed == s.samples) out.clear();  // nothing to tell of any output
   for (const OutputStatistics& of : s.outputs) {
+    if (of.count == 0) continue;
     const std::string deviation = std::isnan(of.deviation) ? "-" : fmt::format("{:.4g}", of.deviation);  // of one sample there is none
     out += fmt::format("{:<36}  {:>11.5g}  {:>11}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", labelled(of.output), of.mean, deviation,
                        of.quantiles.front(), of.quantiles.back(), of.output.smaller_is_worse ? of.smallest : of.largest, of.worst);

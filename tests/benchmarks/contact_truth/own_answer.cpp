@@ -89,10 +89,11 @@ double OwnAnswer::peak_stress(int tooth, double begin, double end, double times)
 
 OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure, const PairRootStress* root_stress) {
   constexpr int intervals = 12;  // of a line; another eight move the transmission error by less than 0.1 %
-  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}},
-                                   task.plane_strain ? MeshEffects::all_but({"free_ends"}) : MeshEffects{},
-                                   MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), structure, root_stress),
-                   {}};
+  OwnAnswer answer{
+      make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}},
+                      task.plane_strain ? MeshEffects::all_but({"free_ends"}) : MeshEffects{},
+                      MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), {.structure = structure, .root_stress = root_stress}),
+      {}};
   answer.loaded = analyse_cycle(answer.model, task.condition, torque).positions.front();
   return answer;
 }

@@ -80,7 +80,7 @@ struct Scene {
   LoadedCycle run(const EffectDecisions& decisions, const MeshEffects& effects) const {
     const FlankCondition left = apply_effects(decisions, condition);
     const MeshModel model = make_mesh_model(pair, {}, {{}, equally_spaced_phases(4)}, effects,
-                                            MeshPlacement::of(gap_model(decisions), left.misalignment), &structure, nullptr, &shafts);
+                                            MeshPlacement::of(gap_model(decisions), left.misalignment), {.structure = &structure, .shafts = &shafts});
     return analyse_cycle(model, left, 3e5);
   }
   LoadedCycle run(const EffectDecisions& decisions) const { return run(decisions, mesh_effects(decisions)); }
@@ -163,7 +163,9 @@ TEST_CASE("An effect that is off costs no instruction", "[.][core][effects][inst
   InstructionCount counter;
   REQUIRE(counter.possible());
   const auto instructions = [&](const MeshEffects& effects) {
-    const auto make = [&] { make_mesh_model(scene.pair, {}, {{}, equally_spaced_phases(4)}, effects, {}, &scene.structure, nullptr, &scene.shafts); };
+    const auto make = [&] {
+      make_mesh_model(scene.pair, {}, {{}, equally_spaced_phases(4)}, effects, {}, {.structure = &scene.structure, .shafts = &scene.shafts});
+    };
     make();  // warms up
     counter.start();
     make();

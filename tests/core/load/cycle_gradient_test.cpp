@@ -153,7 +153,7 @@ TEST_CASE("Every output's derivative by modification, misalignment and torque is
   const bool helical = GENERATE(false, true);
   const GearPair gears = helical ? mesh_cases::pair(18, 54, 30, 10, 120) : mesh_cases::pair(20, 40, 0, 4, 30);
   const mesh_cases::SyntheticRootStress fillets(gears);
-  const MeshModel model = make_mesh_model(gears, {}, {{QuadratureRule::Gauss2, 4}, equally_spaced_phases(7)}, {}, {}, nullptr, &fillets);
+  const MeshModel model = make_mesh_model(gears, {}, {{QuadratureRule::Gauss2, 4}, equally_spaced_phases(7)}, {}, {}, {.root_stress = &fillets});
   const std::vector<MeshParameter> parameters = all_kinds();
   Random random(helical ? 61 : 62);
   int compared = 0, kinks = 0;

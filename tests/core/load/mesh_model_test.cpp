@@ -124,7 +124,7 @@ TEST_CASE("Positions made in another order are the same to the bit", "[core][loa
     for (std::size_t i = count; i > 0; --i, ++made) work(i - 1);
   };
   const MeshModel one = mesh_cases::model(gears, resolution);
-  const MeshModel other = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, {}, {}, nullptr, nullptr, nullptr, backwards);
+  const MeshModel other = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, {}, {}, {}, backwards);
   REQUIRE(made == resolution.phases.size());
   REQUIRE(other.positions.size() == one.positions.size());
   for (std::size_t i = 0; i < one.positions.size(); ++i) {

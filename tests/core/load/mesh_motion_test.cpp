@@ -40,7 +40,7 @@ struct MotionCase {
   }
   MeshModel alone(double value, const MeshResolution& resolved) const { return alone(MeshPlacement::of(gap, at(value).misalignment), resolved); }
   MeshModel alone(const MeshPlacement& placement, const MeshResolution& resolved) const {
-    return make_mesh_model(gears, {steel, steel}, resolved, effects, placement, nullptr, root_stress);
+    return make_mesh_model(gears, {steel, steel}, resolved, effects, placement, {.root_stress = root_stress});
   }
   LoadedCycle solved(double value, const MeshModel& model, const std::vector<MeshParameter>& parameters = {}) const {
     return analyse_cycle(model, at(value), torque_for(gears, 150), parameters);

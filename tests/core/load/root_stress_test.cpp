@@ -12,7 +12,7 @@ namespace {
 
 MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution, const MeshEffects& effects = {}) {
   const mesh_cases::SyntheticRootStress root_stress(gears);
-  return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, effects, {}, nullptr, &root_stress);
+  return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, effects, {}, {.root_stress = &root_stress});
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ TEST_CASE("A mesh that gets its root stress later has that of one made with it",
   MeshPlacement placement;
   placement.misalignment.axial_offset = 4.0;
   const auto mesh = [&](const PairRootStress* model) {
-    return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, effects, placement, nullptr, model);
+    return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, effects, placement, {.root_stress = model});
   };
   const MeshModel made_with = mesh(&root_stress);
   MeshModel added = mesh(nullptr);

@@ -22,7 +22,7 @@ ShaftData shaft(double diameter, bool torque_at_first_end = true) {
 
 MeshModel model_with(const GearPair& gears, const PairCompliance* shafts, int positions = 4) {
   return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(positions)}, {}, {},
-                         nullptr, nullptr, shafts);
+                         {.shafts = shafts});
 }
 
 /// Where the load of a position has its centre [mm].

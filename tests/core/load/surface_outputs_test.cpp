@@ -21,7 +21,7 @@ namespace {
 MeshModel mesh_by(GapModel gap, const GearPair& gears, const MeshResolution& resolution, const Misalignment& misalignment,
                   const PairRootStress* roots = nullptr) {
   return make_mesh_model(gears, {steel, steel}, resolution, MeshEffects::all_but({"extended_contact_region"}), MeshPlacement::of(gap, misalignment),
-                         nullptr, roots);
+                         {.root_stress = roots});
 }
 
 ContactPeaks peaks_by(GapModel gap, const GearPair& gears, const FlankCondition& condition, double torque) {

@@ -15,7 +15,8 @@ namespace {
 struct DamagedPair {
   GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   mesh_cases::SyntheticRootStress root_stress{gears};
-  MeshModel model = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, equally_spaced_phases(6)}, {}, {}, nullptr, &root_stress);
+  MeshModel model =
+      make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, equally_spaced_phases(6)}, {}, {}, {.root_stress = &root_stress});
 
   LoadedCycle under(double line_load) const { return analyse_cycle(model, mesh_cases::worked_condition(), mesh_cases::torque_for(gears, line_load)); }
 };

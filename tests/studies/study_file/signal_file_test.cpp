@@ -136,43 +136,74 @@ TEST_CASE("A signal is read in a time that grows as its length", "[studies][life
 TEST_CASE("A study's bins are the time and the revolutions of its signal, repeated for a life", "[studies][life]") {
   const SignalFolder of(triangle);
   const Study study = of.study(by_signal + ", bins = 4, hours = 250");
-  REQUIRE(study.spectrum.size() == 5);
   constexpr double hour = 3600.0, round_off = 1e-12;
-  const SpectrumBin& idle = study.spectrum.front();
-  CHECK(idle.torque == 0.0);
-  CHECK(idle.hours == Approx(0.2 * 250.0 * hour).epsilon(round_off));
-  double hours = 0.0, cycles = 0.0;
+  REQUIRE(study.spectrum.size() == 8);  // four ranges of torque either way
+  double hours = 0.0, cycles = 0.0, reversed = 0.0;
   for (const SpectrumBin& bin : study.spectrum) {
     hours += bin.hours;
     cycles += bin.cycles;
+    reversed += bin.torque < 0.0 ? bin.hours : 0.0;
     CHECK(bin.speed == Approx(1200.0 * 2.0 * units::pi / 60.0).epsilon(round_off));
     CHECK_FALSE(bin.same_teeth);
   }
   CHECK(hours == Approx(250.0 * hour).epsilon(round_off));
   CHECK(cycles == Approx(250.0 * 60.0 * 1200.0).epsilon(round_off));
-  for (std::size_t k = 1; k < 5; ++k) {
-    CHECK(study.spectrum[k].torque == Approx(1e5 * static_cast<double>(k)).epsilon(round_off));
+  CHECK(reversed == Approx(0.2 * 250.0 * hour).epsilon(round_off));
+  for (std::size_t k = 0; k < 4; ++k) {
+    CHECK(study.spectrum[k].torque == Approx(1e5 * static_cast<double>(k + 1)).epsilon(round_off));
     CHECK(study.spectrum[k].hours == Approx(50.0 * hour).epsilon(round_off));
+    CHECK(study.spectrum[k + 4].torque == Approx(-0.25e5 * static_cast<double>(k + 1)).epsilon(round_off));
   }
   REQUIRE(study.scenes.size() == 1);
-  CHECK(study.scenes[0].torques.size() == 5);
+  CHECK(study.scenes[0].torques.size() == 8);
   // The same life told by the number of repetitions, and a single one without it.
   const Study repeated = of.study(by_signal + ", bins = 4, repeats = 36000"), once = of.study(by_signal + ", bins = 4");
-  for (std::size_t k = 0; k < 5; ++k) {
+  for (std::size_t k = 0; k < 8; ++k) {
     CHECK(repeated.spectrum[k].cycles == Approx(study.spectrum[k].cycles).epsilon(round_off));
     CHECK(36000.0 * once.spectrum[k].cycles == Approx(study.spectrum[k].cycles).epsilon(round_off));
   }
-  CHECK(of.study(by_signal).spectrum.size() == 21);
+  CHECK(of.study(by_signal).spectrum.size() == 40);
+}
+
+TEST_CASE("Time without load is a bin of its own, once whichever flank works", "[studies][life]") {
+  const SignalFolder of("time,torque,speed\n0,200,1200\n4,200,1200\n4.000001,0,1200\n10,0,1200\n10.000001,-100,1200\n15,-100,1200\n");
+  const Study study = of.study(by_signal + ", bins = 1");
+  REQUIRE(study.spectrum.size() == 3);
+  constexpr double ramps = 1e-6;  // part of the time
+  const double expected[] = {6.0, 4.0, 5.0}, torques[] = {0.0, 2e5, -1e5};
+  for (std::size_t k = 0; k < 3; ++k) {
+    CHECK(study.spectrum[k].torque == Approx(torques[k]));
+    CHECK(study.spectrum[k].hours == Approx(expected[k]).epsilon(ramps));
+  }
 }
 
 TEST_CASE("A signal of the other sign rates the other flank", "[studies][life]") {
   const SignalFolder of(triangle);
-  const Study other = of.study(by_signal + ", bins = 3, torque_factor = -2");
+  const Study study = of.study(by_signal + ", bins = 3"), other = of.study(by_signal + ", bins = 3, torque_factor = -2");
   REQUIRE(other.signal);
   CHECK(other.signal->largest_torque == Approx(2e5));
   CHECK(other.signal->count.reversed_duration == Approx(20.0).epsilon(1e-4));
-  CHECK(other.spectrum.back().torque == Approx(2e5));
-  CHECK(other.spectrum.back().hours == Approx(5.0).epsilon(1e-3));
+  // The same loads, twice as large and of the other flank.
+  REQUIRE(other.spectrum.size() == study.spectrum.size());
+  constexpr double round_off = 1e-12;
+  for (const SpectrumBin& bin : study.spectrum) {
+    const auto there = std::ranges::find_if(other.spectrum, [&](const SpectrumBin& o) { return std::abs(o.torque + 2.0 * bin.torque) < 1.0; });
+    REQUIRE(there != other.spectrum.end());
+    CHECK(there->hours == Approx(bin.hours).epsilon(round_off));
+    CHECK(there->cycles == Approx(bin.cycles).epsilon(round_off));
+  }
+}
+
+TEST_CASE("A scene of the other flank takes the torques of a signal below 0", "[studies][life]") {
+  const SignalFolder of(triangle);
+  const std::string text = signal_pair + "[load]\nspectrum = { " + by_signal +
+                           ", bins = 1 }\n[[scenes]]\nname = \"drive\"\n[[scenes]]\nname = \"coast\"\nworking_flank = \"left\"\n";
+  const Study study = parse_study(text, of.study_path());
+  REQUIRE(study.spectrum.size() == 2);
+  CHECK(study.scenes[0].torques[0] == Approx(4e5));
+  CHECK(study.scenes[0].torques[1] == 0.0);
+  CHECK(study.scenes[1].torques[0] == 0.0);
+  CHECK(study.scenes[1].torques[1] == Approx(1e5));
 }
 
 TEST_CASE("Rainflow gives both gears' teeth the cycles of the torque", "[studies][life]") {

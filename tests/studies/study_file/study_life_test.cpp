@@ -174,6 +174,13 @@ TEST_CASE("What is wrong with strength or lubricant is told by its key", "[studi
   CHECK(with("[lubricant]\nviscosity_40 = 100\ntemperature = 80\nroughness = 0.5\n") == "lubricant.viscosity_100");
   CHECK(with("[lubricant]\nviscosity_40 = 10\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n") == "lubricant.viscosity_40");
   CHECK(with("[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n").empty());
+  const std::string oil = "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n";
+  CHECK(with(oil + "scuffing_temperature = 81\nbulk_temperature = 80\n").empty());
+  CHECK(with(oil + "scuffing_temperature = 80\n") == "lubricant.scuffing_temperature");
+  CHECK(with(oil + "bulk_temperature = 79\n") == "lubricant.bulk_temperature");
+  const std::string hot_bin = "[load]\nspectrum = [{ torque = 300, cycles = 1e6, temperature = 120 }]\n";
+  CHECK(life_problem(life_pair + hot_bin + oil + "scuffing_temperature = 110\n").key == "lubricant.scuffing_temperature");
+  CHECK(life_problem(life_pair + "[load]\nspectrum = [{ torque = 0, cycles = 1e6 }]\n").key == "load.spectrum");
   // Through both viscosities the relation with temperature gives some 1e10 mm2/s at -40 deg C: no oil.
   const std::string thick = "[lubricant]\nviscosity_40 = 10000\nviscosity_100 = 100\nroughness = 0.5\n";
   CHECK(with(thick + "temperature = 80\n").empty());

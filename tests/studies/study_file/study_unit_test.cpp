@@ -112,6 +112,14 @@ TEST_CASE("The derivative by torque knows the other meshes", "[studies][gradient
   }
 }
 
+TEST_CASE("Derivatives by torque are refused where bearings yield in another way at each torque", "[studies][gradient][shaft][unit]") {
+  const auto read = [](const std::vector<Override>& overrides) { return parse_study(unit_pair + unit_text, "unit.toml", overrides); };
+  const Override by_torque{"analyse.gradients", R"(["load.torque"])"}, clearance{"pinion.shaft.bearings.1.radial_clearance", "40"};
+  CHECK_NOTHROW(read({by_torque}));
+  CHECK_NOTHROW(read({{"analyse.gradients", R"(["misalignment.mesh_misalignment"])"}, clearance}));
+  CHECK_THROWS_WITH(read({by_torque, clearance}), Catch::Contains("analyse.gradients") && Catch::Contains("none by load.torque"));
+}
+
 TEST_CASE("Clearances make a mesh for each torque, and the results say so", "[studies][shaft][unit]") {
   const std::vector<Override> loose{{"pinion.shaft.bearings.1.radial_clearance", "40"}};
   const Json linear = run_unit(unit_pair + unit_text, {{"load.torque", "[150, 300]"}});

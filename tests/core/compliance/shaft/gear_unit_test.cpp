@@ -230,10 +230,100 @@ TEST_CASE("Units that cannot be are refused by their key", "[core][compliance][s
   all.unit.joints = {{"wheel", "input", 10, {.position = 200}}};
   CHECK_THAT(first_problem(all), Contains("unit.joints.0.outer_shaft") && Contains("apart"));
   all = two_stages();
+  all.unit.meshes[0].gears[0].shaft = "pinion";  // where the pair's pinion sits, with its teeth, but not with its helix
+  all.unit.meshes[0].gears[1].shaft = "input";
+  all.unit.meshes[0].gears[0] = {"pinion", 180, 23, 50};
+  all.unit.meshes[0].normal_module = 6.5;
+  all.unit.meshes[0].centre_distance = not_given;
+  CHECK_THAT(first_problem(all), Contains("unit.meshes.0.helix_angle = 21: that of pinion") && Contains("10 deg"));
+  all.unit.meshes[0].helix_angle = 10 * units::deg;
+  CHECK_THAT(first_problem(all), Contains("unit.meshes.0.hand_1 = right: \"left\""));
+  all = two_stages();
+  all.shaft.pinion->sections = {{120, 80}, {150, 200}};
+  CHECK_THAT(first_problem(all), Contains("pinion.shaft.sections.1.outer_diameter = 200: at most") && Contains("tip diameter"));
+  all = two_stages();
   all.unit.housing = {{"pinion 1"}, Eigen::MatrixXd::Identity(2, 2)};
   CHECK_THAT(first_problem(all), Contains("unit.housing.stiffness = 4 numbers: 9 numbers"));
   all.unit.housing.stiffness = -Eigen::MatrixXd::Identity(3, 3);
   CHECK_THAT(first_problem(all), Contains("positive definite"));
+}
+
+TEST_CASE("Gears in a loop turn at one speed, and meet along their shafts", "[core][compliance][shaft][unit]") {
+  using Catch::Contains;
+  // The first stage a second time on the same two shafts, as a split of its power.
+  ShaftsOfPair all = two_stages();
+  all.unit.shafts[0].sections = {{300, 50}};
+  all.unit.meshes.push_back(all.unit.meshes[0]);
+  UnitMesh& second = all.unit.meshes[1];
+  second.gears[0].position = 40;
+  second.gears[1].position = -5 + 1;  // 77 mm from the first one on the input shaft, 76 mm on the other: faces of 50 mm meet all the same
+  second.torque = -1e5;
+  all.unit.reference_torque = 1e6;
+  all.shaft.pinion->sections = {{400, 80}};
+  for (ShaftBearing& bearing : all.shaft.pinion->bearings) bearing.position += 100;
+  all.shaft.pinion->gear_position += 100;
+  for (UnitMesh& mesh : all.unit.meshes) mesh.gears[1].position += 100;
+  CHECK(first_problem(all).empty());
+  ShaftsOfPair locked = all;
+  locked.unit.meshes[1].gears[0].teeth = 28;
+  locked.unit.meshes[1].gears[1].teeth = 50;
+  locked.unit.meshes[1].centre_distance = 190;
+  CHECK_THAT(first_problem(locked), Contains("unit.meshes.1.teeth_2 = 50") && Contains("can turn"));
+  ShaftsOfPair apart = all;
+  apart.unit.meshes[1].gears[1].position = 40;
+  CHECK_THAT(first_problem(apart), Contains("unit.meshes.1.position_2 = 40") && Contains("faces meet"));
+}
+
+TEST_CASE("A gear that idles carries nothing, drives nothing and holds no shaft against turning", "[core][compliance][shaft][unit]") {
+  const GearPair pair = second_stage();
+  for (int teeth = 15; teeth <= 40; ++teeth) {
+    ShaftsOfPair all = two_stages();
+    all.unit.shafts.push_back(shaft_of_unit(220, {65, 205}));
+    all.unit.shafts[1].name = "idle";
+    UnitMesh idle;
+    idle.gears = {UnitGear{"idle", 110, teeth, 40}, UnitGear{"pinion", 72, 51, 50}};
+    idle.normal_module = 4.5;
+    idle.helix_angle = 21 * units::deg;
+    idle.hand = Hand::Right;
+    idle.angle = 120 * units::deg;
+    idle.stiffness = 2e4;
+    for (const bool is_first : {false, true}) {  // whichever is listed first
+      CAPTURE(teeth, is_first);
+      ShaftsOfPair shafts = all;
+      shafts.unit.meshes.insert(is_first ? shafts.unit.meshes.begin() : shafts.unit.meshes.end(), idle);
+      REQUIRE(first_problem(shafts).empty());
+      const std::size_t at = is_first ? 0 : 1;
+      CHECK(torques_as_analysed(shafts, pair).mesh[at] == 0.0);
+      CHECK(meshes_per_revolution(shafts, pair, Member::Pinion) == 1);
+      settle_turning_holds(shafts, pair);
+      CHECK(shafts.shaft.pinion->held_position == 72.0);
+    }
+  }
+}
+
+TEST_CASE("A shaft is held against turning where its torque leaves, whichever mesh is listed first", "[core][compliance][shaft][unit]") {
+  // A third gear on the intermediate shaft takes nothing: its own shaft has no coupling. The first stage's gear stands on one side of the pinion, this one on the other.
+  const GearPair pair = second_stage();
+  ShaftsOfPair all = two_stages();
+  all.shaft.pinion->sections = {{350, 80}};
+  all.unit.shafts.push_back(shaft_of_unit(220, {65, 205}));
+  all.unit.shafts[1].name = "idle";
+  UnitMesh idle;
+  idle.gears = {UnitGear{"idle", 110, 20, 20}, UnitGear{"pinion", 300, 40, 20}};
+  idle.normal_module = 4.5;
+  idle.angle = 120 * units::deg;
+  all.unit.meshes.insert(all.unit.meshes.begin(), idle);
+  REQUIRE(first_problem(all).empty());
+  settle_turning_holds(all, pair);
+  CHECK(all.shaft.pinion->held_position == 72.0);
+  CHECK(all.shaft.pinion->torque_side() == -1);
+  // So it is where a coupling that carries nothing stands at the other end.
+  all.shaft.pinion->torque_position = 340;
+  all.unit.meshes[1].torque = -torques_as_analysed(two_stages(), pair).mesh[0] * 1e6;  // mirrored: the pair works on its left flank
+  all.unit.reference_torque = 1e6;
+  REQUIRE(first_problem(all).empty());
+  settle_turning_holds(all, pair);
+  CHECK(all.shaft.pinion->held_position == 72.0);
 }
 
 TEST_CASE("Gears of two shafts in one place are refused by the angle of their mesh", "[core][compliance][shaft][unit]") {

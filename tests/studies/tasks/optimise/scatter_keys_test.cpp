@@ -54,6 +54,17 @@ TEST_CASE("A drawn gear deviates from its design, and the same seed draws the sa
   }
 }
 
+TEST_CASE("A draw whose axes are so far apart that no teeth meet is refused", "[studies][scatter]") {
+  const auto refused = [](const std::string& distribution) {
+    return find_refused_draw(read("[optimise.tolerances]\n\"misalignment.centre_distance\" = " + distribution + "\n"), {.samples = 16});
+  };
+  // m_n = 4 mm: gears mesh 1 mm apart, which no tolerance reaches, and not 100 mm apart.
+  CHECK_FALSE(refused("{ uniform = [0, 1] }"));
+  REQUIRE(refused("{ uniform = [0, 100] }"));
+  CHECK(refused("{ uniform = [0, 100] }")->path == "misalignment.centre_distance");
+  CHECK_THAT(refused("{ uniform = [0, 100] }")->allowed, Contains("total contact ratio of at least 1"));
+}
+
 TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\n").allowed, Contains("set optimise.tolerances or optimise.scatter.iso_1328_class"));
   CHECK_THAT(problem_of("[optimise.scatter]\niso_1328_class = 6\n").allowed, Contains("draws above 0"));

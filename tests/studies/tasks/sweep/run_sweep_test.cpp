@@ -62,6 +62,15 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
   CHECK(samples[0].result.outputs[0] != samples[3].result.outputs[0]);
 }
 
+TEST_CASE("A sample whose axes are so far apart that no teeth meet has no outputs", "[studies][sweep]") {
+  // m_n = 10 mm: the tips overlap by some 20 mm, so that 30 mm leave air.
+  const std::vector<Override> apart{{"sweep.parameters", "{ \"misalignment.centre_distance\" = { values = [0, 30] } }"}};
+  const std::vector<StoredSample> samples = samples_of(sweep_study("sampler = \"grid\"\nindices = \"off\"", "", apart));
+  REQUIRE(samples.size() == 2);
+  CHECK(samples[0].result.failure.empty());
+  CHECK_THAT(samples[1].result.failure, Catch::Contains("misalignment.centre_distance") && Catch::Contains("total contact ratio of at least 1"));
+}
+
 TEST_CASE("A sample under a load spectrum has the worst of its loads and the damage of their sum", "[studies][sweep][life]") {
   const std::string spectrum =
       "{ spectrum = [{ torque = 600, cycles = 1e8 }, { torque = 0, cycles = 1e9 }, { torque = 1000, cycles = 1e6, mesh_misalignment = 4 }] }";

@@ -115,6 +115,13 @@ TEST_CASE("Parameters that a sweep cannot vary are refused by name", "[studies][
   CHECK_THROWS_WITH(sweep_keys(settings, more), Contains(said));
 }
 
+TEST_CASE("A compensation of the twist is swept where grinding twists", "[studies][sweep]") {
+  const std::string compensation = "\"pinion.twist_compensation\" = { uniform = [0, 1] }\n";
+  CHECK_NOTHROW(parse_study(small::sweep("", compensation), "s.toml", {{"pinion.process", "generating_grinding"}}));
+  CHECK_THROWS_WITH(parse_study(small::sweep("", compensation), "s.toml"),
+                    Contains("sweep.parameters.pinion.twist_compensation") && Contains("has no effect"));
+}
+
 TEST_CASE("A sweep without parameters, or with a list of torques, is refused", "[studies][sweep]") {
   CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml", {{"sweep.parameters", "{}"}}), Contains("at least one parameter"));
   CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml", {{"load.torque", "[1, 2]"}}), Contains("a sweep takes one torque"));

@@ -44,6 +44,25 @@ TEST_CASE("Statistics of counted samples are their closed forms", "[studies][swe
   CHECK(of.indices.empty());
 }
 
+TEST_CASE("Levels of a grid have a cell each in a map, however far apart they are", "[studies][sweep]") {
+  const Study study = parse_study(
+      small::sweep("sampler = \"grid\"\nindices = \"off\""), "s.toml",
+      {{"sweep.parameters", "{ \"misalignment.mesh_misalignment\" = { values = [10, 0, 3] }, \"load.torque\" = { values = [800, 900] } }"}});
+  const auto statistics = statistics_of(study, [](long long, const auto& v) { return SampleResult{"", {v[0] + 1e-2 * v[1], 1.0}}; });
+  const std::size_t torque = study.table<SweepTable>().parameters[0].path == "load.torque" ? 0 : 1, misalignment = 1 - torque;
+  CHECK(statistics.parameters[misalignment].levels == std::vector<double>{0.0, 3.0, 10.0});
+  CHECK(statistics.parameters[misalignment].counts == std::vector<long long>{2, 2, 2});
+  const auto map = std::ranges::find(statistics.maps, std::size_t{0}, &ResponseMap::output);
+  REQUIRE(map != statistics.maps.end());
+  constexpr double levels[] = {0.0, 3.0, 10.0}, torques[] = {800.0, 900.0};
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double expected = torque == 0 ? torques[k] + 1e-2 * levels[i] : levels[i] + 1e-2 * torques[k];
+      CHECK(map->mean(torque == 0 ? k : i, torque == 0 ? i : k) == Approx(expected).epsilon(1e-14));
+    }
+  }
+}
+
 TEST_CASE("A linear output gives each parameter its share of the variance, and a map that is a plane", "[studies][sweep]") {
   const Study study = parse_study(small::sweep("samples = 20480\nseed = 3"), "s.toml");  // 4096 blocks
   // Torque (deviation 400/sqrt(12)), crowning (8/sqrt(12)) and misalignment (6), weighted to variances 1, 4 and 0.
