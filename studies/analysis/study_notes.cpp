@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/compliance/shaft/unit_statics.hpp"
 #include "core/base/units.hpp"
 #include "core/flank/natural_twist.hpp"
 #include "studies/analysis/study_effects.hpp"
@@ -125,6 +126,18 @@ void note_reversed_loads(const Study& study, std::vector<std::string>& notes) {
       fmt::format("load.spectrum: for {:.3g} % of the {} the torque is below 0 and loads the other flank, which counts as time without load here; a "
                   "scene with the other working_flank rates that one",
                   100.0 * reversed / cycles, study.spectrum.front().same_teeth ? "load cycles" : "revolutions"));
+}
+
+/// Roots that the unit bends both ways.
+void note_alternating_bending(const Study& study, const GearPair& pair, std::vector<std::string>& notes) {
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    const bool is_rated = study.life.grade[m] || !std::isnan(study.life.root[m].limit);
+    if (!is_rated || meshes_on_other_flank({study.shaft, study.unit}, pair, m) == 0) continue;
+    notes.push_back(fmt::format(
+        "the {}'s teeth are loaded on both flanks in each revolution: ISO 6336-3 reduces the strength of such roots (Y_M, about 0.7 of an "
+        "idler), which is not done here; a root_endurance_limit of the study can contain it",
+        name_of(m)));
+  }
 }
 
 /// What is rated under more than its torque.
@@ -249,6 +262,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   note_signal(study, notes);
   note_reversed_loads(study, notes);
   note_load_factors(study, notes);
+  note_alternating_bending(study, pair, notes);
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format(
         "the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",

@@ -137,15 +137,29 @@ UnitTorques torques_as_analysed(ShaftsOfPair shafts, const GearPair& pair) {
   return torque_balance(shafts, pair);
 }
 
-int meshes_per_revolution(const ShaftsOfPair& shafts, const GearPair& pair, Member member) {
+namespace {
+
+/// Meshes of the unit on one of the pair's gears.
+/// @param is_counted  of the torque that a mesh leaves on its gears: of one sign on both, as that of the pair, which is negative
+template <class IsCounted>
+int meshes_on(const ShaftsOfPair& shafts, const GearPair& pair, Member member, const IsCounted& is_counted) {
   const UnitTorques torques = torques_as_analysed(shafts, pair);
-  int meshes = 1;
+  int meshes = 0;
   for (std::size_t m = 0; m < shafts.unit.meshes.size(); ++m) {
     const auto same = [&](const UnitGear& gear) { return is_on_pair_gear(shafts, pair, member, gear); };
-    // The torque that a mesh leaves on its gears is of one sign, that of the pair is negative on both.
-    if (std::ranges::any_of(shafts.unit.meshes[m].gears, same) && torques.mesh[m] > 0.0) ++meshes;
+    if (std::ranges::any_of(shafts.unit.meshes[m].gears, same) && is_counted(torques.mesh[m])) ++meshes;
   }
   return meshes;
+}
+
+}  // namespace
+
+int meshes_per_revolution(const ShaftsOfPair& shafts, const GearPair& pair, Member member) {
+  return 1 + meshes_on(shafts, pair, member, [](double torque) { return torque > 0.0; });
+}
+
+int meshes_on_other_flank(const ShaftsOfPair& shafts, const GearPair& pair, Member member) {
+  return meshes_on(shafts, pair, member, [](double torque) { return torque < 0.0; });
 }
 
 double turning_hold(const ShaftsOfPair& shafts, int shaft, const UnitTorques& torques) {

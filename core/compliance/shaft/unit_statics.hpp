@@ -50,6 +50,8 @@ std::vector<BeamLoad> constant_loads(const ShaftsOfPair& shafts);
 /// whose torque is of the same sign. An idler's second mesh loads the other flank.
 /// @param shafts  as the study has them, without problems
 int meshes_per_revolution(const ShaftsOfPair& shafts, const GearPair& pair, Member member);
+/// How many meshes of the unit load the teeth of this gear on their other flanks in a revolution: the second mesh of an idler.
+int meshes_on_other_flank(const ShaftsOfPair& shafts, const GearPair& pair, Member member);
 
 /// Where a shaft is held against turning: its coupling if that carries torque, else where most of its torque enters or leaves beside the pair's gear, the gear of another
 /// mesh or a load; of several that carry alike the first [mm]. NaN: nowhere.

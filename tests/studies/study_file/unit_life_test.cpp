@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/analysis/study_notes.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
@@ -68,6 +69,15 @@ TEST_CASE("A wheel that two pinions drive has two load cycles in a revolution, a
   // The second gear takes the torque of the first: it loads the wheel's other flank.
   const Json idler = life_of({{"unit.meshes.0.torque_1", "-800"}});
   CHECK(idler.at("wheel").at("meshes_per_revolution") == 1);
+  // Its roots bend both ways, which is said where they are rated.
+  const auto has_note = [](const std::vector<Override>& overrides) {
+    const Study study = parse_study(two_pinions, "unit.toml", overrides);
+    const std::vector<std::string> notes = study_notes(study, make_gear_pair(study.pair));
+    return std::ranges::any_of(notes, [](const std::string& note) { return note.starts_with("the wheel's teeth are loaded on both flanks"); });
+  };
+  CHECK(has_note({{"unit.meshes.0.torque_1", "-800"}, {"material.root_endurance_limit", "400"}}));
+  CHECK_FALSE(has_note({{"unit.meshes.0.torque_1", "-800"}}));
+  CHECK_FALSE(has_note({{"material.root_endurance_limit", "400"}}));
 }
 
 TEST_CASE("Damage is summed where bearings make a mesh of its own for each load", "[studies][unit][life][shaft]") {
