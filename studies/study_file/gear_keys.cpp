@@ -107,7 +107,7 @@ std::vector<SchemaKey> geometry_rows() {
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.addendum = v.number; }},
       {.path = "gear.rack.dedendum", .range = above_zero(2.5), .fallback = "1.25", .meaning = "h_fP, in normal modules",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.dedendum = v.number; }},
-      {.path = "gear.rack.root_radius", .range = from_zero(2.0), .fallback = "0.39",
+      {.path = "gear.rack.root_radius", .range = from_zero(2.0), .fallback = "(0.39, or the full rounding where that is less)",
        .meaning = "rho_fP, in normal modules; at most the full rounding of the tool's tip",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.root_radius = v.number; }},
       {.path = "gear.process", .kind = WordOrTable, .words = {grinding_kind_names.begin(), grinding_kind_names.end()}, .fallback = "\"none\"",

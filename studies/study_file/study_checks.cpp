@@ -9,6 +9,7 @@
 #include "core/flank/contact_shift.hpp"
 #include "core/gear/flank_tolerances.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "core/gear/tooth_form.hpp"
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/study_file/scene_placement.hpp"
 
@@ -167,10 +168,26 @@ void check_presence(StudyReading& reading) {
   }
 }
 
+namespace {
+
+/// Tools of a large pressure angle or dedendum are too narrow for the rounding that a rack has where none is given.
+void settle_root_radius(StudyReading& reading) {
+  PairData& pair = reading.builder.study.pair;
+  for (const Member m : members) {
+    if (reading.find(std::string(name_of(m)) + ".rack.root_radius") != nullptr) continue;
+    RackProfile& rack = pair[m].rack;
+    const double largest = full_tip_rounding(rack.dedendum, pair.pressure_angle);
+    if (largest > 0.0) rack.root_radius = std::min(rack.root_radius, largest);
+  }
+}
+
+}  // namespace
+
 void check_pair(StudyReading& reading) {
   const bool has_problem =
       std::ranges::any_of(reading.problems, [](const StudyProblem& problem) { return problem.key.empty() || is_geometry(problem.key); });
   if (has_problem) return;
+  settle_root_radius(reading);
   const PairData& pair = reading.builder.study.pair;
   if (reading.find("wheel.hand") != nullptr && reading.builder.wheel_hand == pair.pinion_hand) {
     reading.refuse_key("wheel.hand", "allowed is the opposite of pinion.hand");
@@ -221,8 +238,10 @@ void check_scene_placements(StudyReading& reading) {
   const GearPair pair = make_gear_pair(study.pair);
   for (std::size_t i = 0; i < study.scenes.size(); ++i) {
     for (const PlacementProblem& problem : placement_problems(pair, study.scenes[i].misalignment)) {
-      const std::string in_scene = "scenes." + std::to_string(i) + "." + problem.key;
-      const std::string path = reading.positions.contains(in_scene) ? in_scene : problem.key;
+      // A value that the study does not give itself is the median of what it sweeps.
+      const std::array places{"scenes." + std::to_string(i) + "." + problem.key, problem.key, "sweep.parameters." + problem.key};
+      const auto given = std::ranges::find_if(places, [&](const std::string& place) { return reading.positions.contains(place); });
+      const std::string& path = given != places.end() ? *given : problem.key;
       const Position at = reading.where(path);
       reading.problems.push_back({at.file, at.line, at.column, path, in_words(problem.value), "allowed is " + problem.allowed});
     }

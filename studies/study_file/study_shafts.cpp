@@ -38,6 +38,24 @@ void read_shaft(StudyReading& reading, Member member) {
   for (const InvalidInput& problem : find_problems(*shaft, study.pair[member].face_width)) refuse(reading, table + "." + problem.field(), problem);
 }
 
+/// No section is thicker than the gear that sits on it.
+void check_sections(StudyReading& reading, Member member) {
+  const Study& study = reading.builder.study;
+  if (!study.shaft[member] || !reading.problems.empty() || !find_problems(study.pair).empty()) return;
+  const ShaftData& shaft = *study.shaft[member];
+  const double tip_diameter = 2.0 * make_gear_pair(study.pair)[member].tip_radius, half = 0.5 * study.pair[member].face_width;
+  double begin = 0.0;
+  for (std::size_t k = 0; k < shaft.sections.size(); ++k) {
+    const double end = begin + shaft.sections[k].length, diameter = shaft.sections[k].outer_diameter;
+    const bool is_under = std::max(begin, shaft.gear_position - half) < std::min(end, shaft.gear_position + half);
+    if (is_under && diameter > tip_diameter) {
+      const std::string key = std::string(name_of(member)) + ".shaft.sections." + std::to_string(k) + ".outer_diameter";
+      refuse(reading, key, {key, in_words(diameter), "at most " + in_words(tip_diameter) + " mm, the tip diameter of the gear that it runs through"});
+    }
+    begin = end;
+  }
+}
+
 /// The keys of [unit] and what they say together with both shafts; where all else could be read.
 void read_unit(StudyReading& reading) {
   Study& study = reading.builder.study;
@@ -105,6 +123,7 @@ void read_shafts(StudyReading& reading) {
   } else {
     read_unit(reading);
   }
+  for (const Member m : {Member::Pinion, Member::Wheel}) check_sections(reading, m);
   settle_meshes_per_revolution(reading);
   check_equilibria(reading);
   const bool listed = std::ranges::find(study.fidelity.effects, "shafts") != study.fidelity.effects.end();

@@ -59,7 +59,7 @@ class Layout : Findings {
       : shafts_(shafts), unit_(shafts.unit), pair_(pair), all_(shafts.all()), ends_(first_ends()) {}
 
   std::vector<InvalidInput> run() {
-    for (const auto check : {&Layout::check_sections, &Layout::check_axes, &Layout::check_along, &Layout::check_speeds, &Layout::check_room}) {
+    for (const auto check : {&Layout::check_axes, &Layout::check_along, &Layout::check_speeds, &Layout::check_room}) {
       (this->*check)();
       if (!empty()) break;  // what follows needs what came before
     }
@@ -67,24 +67,6 @@ class Layout : Findings {
   }
 
  private:
-  /// No section is thicker than the pair's gear that sits on it.
-  void check_sections() {
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      const std::optional<ShaftData>& shaft = shafts_.shaft[m];
-      if (!shaft) continue;
-      const double tip_diameter = 2.0 * pair_[m].tip_radius, half = 0.5 * pair_[m].data.face_width;
-      double begin = 0.0;
-      for (std::size_t k = 0; k < shaft->sections.size(); ++k) {
-        const double end = begin + shaft->sections[k].length;
-        const bool is_under = std::max(begin, shaft->gear_position - half) < std::min(end, shaft->gear_position + half);
-        require(!is_under || shaft->sections[k].outer_diameter <= tip_diameter,
-                shafts_.table(*shafts_.find(m)) + ".sections." + std::to_string(k) + ".outer_diameter", shaft->sections[k].outer_diameter,
-                "at most " + in_mm(tip_diameter) + ", the tip diameter of the gear that it runs through");
-        begin = end;
-      }
-    }
-  }
-
   void check_axes() {
     const std::vector<Eigen::Vector2d> axes = axes_of(shafts_, pair_);
     const auto apart = [&](const std::string& one, const std::string& two) -> Eigen::Vector2d {

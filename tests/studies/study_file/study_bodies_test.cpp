@@ -152,9 +152,11 @@ TEST_CASE("A web's tilt acts in the loaded contact and is in the results, its ru
   CHECK(rim(mirrored, "misalignment_um") == Approx(-rim(offset, "misalignment_um")).epsilon(0.01));  // the pinion is twisted from one end
   CHECK(std::abs(rim(centred, "misalignment_um")) < 0.01 * std::abs(rim(offset, "misalignment_um")));  // likewise
   CHECK(rim(centred, "radial_um") > 0);
-  // It is a misalignment of ISO 6336-1 as well: F_beta_y is what opens at the teeth, under an even load instead of that which leans.
+  // It is a misalignment of ISO 6336-1 as well: F_beta_y is what opens at the teeth under an even load. The load that leans to the carried end opens less.
   const auto F_beta_y = [](const json& results) { return results.at("loaded")[0].at("summary").at("iso6336").at("F_beta_y_um").get<double>(); };
-  CHECK(F_beta_y(offset) == Approx(std::abs(rim(offset, "misalignment_at_teeth_um"))).epsilon(0.2));
+  const double leaning = std::abs(rim(offset, "misalignment_at_teeth_um"));
+  CHECK(F_beta_y(offset) > leaning);
+  CHECK(F_beta_y(offset) < 2.0 * leaning);
   CHECK(F_beta_y(centred) < 0.05 * F_beta_y(offset));
   // The load follows the end that is carried.
   const auto leans = [](const json& results) {

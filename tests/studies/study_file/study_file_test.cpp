@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/gear/tooth_form.hpp"
 #include "core/base/units.hpp"
 #include "tests/studies/study_texts.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
@@ -73,6 +74,16 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
   CHECK(study.table<OptimiseTable>().objective.size() == 1);
   CHECK(std::isinf(study.table<OptimiseTable>().solver.max_seconds));
   CHECK(parse_study(replaced(small_study, "title = \"Small\"\n", ""), "dir/pump.toml").title == "pump");
+}
+
+TEST_CASE("A rack without a rounding has the usual one, or the full rounding of a tool that is too narrow for it", "[studies][file]") {
+  const auto rounding = [](const std::vector<Override>& overrides) { return study_texts::read("", overrides).pair.pinion.rack.root_radius; };
+  CHECK(rounding({}) == RackProfile{}.root_radius);
+  CHECK(rounding({{"pair.pressure_angle", "25"}}) == full_tip_rounding(1.25, 25 * units::deg));
+  CHECK(rounding({{"pinion.rack.dedendum", "1.6"}}) == full_tip_rounding(1.6, 20 * units::deg));
+  CHECK(rounding({{"pair.pressure_angle", "25"}, {"pinion.rack.root_radius", "0.2"}}) == 0.2);
+  // One that is given is held against the tool.
+  CHECK(study_texts::problem_of("", {{"pair.pressure_angle", "25"}, {"pinion.rack.root_radius", "0.39"}}).key == "pinion.rack.root_radius");
 }
 
 TEST_CASE("A diametral pitch P is the module 25.4 mm / P", "[studies][study-file]") {

@@ -74,6 +74,13 @@ TEST_CASE("A shaft is read with its units, the gear's material and one bearing t
   CHECK(read_shafts(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).shaft.pinion->bearings[0].axial_stiffness == 0.0);
 }
 
+TEST_CASE("A shaft is no thicker than the gear that it runs through", "[studies][shaft]") {
+  const std::vector<StudyProblem> problems = shaft_problems(pair_text + shaft_text, {{"pinion.shaft.sections.1.outer_diameter", "5000"}});
+  REQUIRE(problems.size() == 1);
+  CHECK(problems.front().key == "pinion.shaft.sections.1.outer_diameter");
+  CHECK_THAT(problems.front().allowed, Catch::Contains("the tip diameter of the gear"));
+}
+
 TEST_CASE("Impossible shafts are refused with their position in the file", "[studies][shaft]") {
   CHECK(shaft_problems(pair_text + shaft_text).empty());
   const int lines = static_cast<int>(std::count(pair_text.begin(), pair_text.end(), '\n'));

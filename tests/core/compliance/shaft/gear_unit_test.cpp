@@ -239,9 +239,6 @@ TEST_CASE("Units that cannot be are refused by their key", "[core][compliance][s
   all.unit.meshes[0].helix_angle = 10 * units::deg;
   CHECK_THAT(first_problem(all), Contains("unit.meshes.0.hand_1 = right: \"left\""));
   all = two_stages();
-  all.shaft.pinion->sections = {{120, 80}, {150, 200}};
-  CHECK_THAT(first_problem(all), Contains("pinion.shaft.sections.1.outer_diameter = 200: at most") && Contains("tip diameter"));
-  all = two_stages();
   all.unit.housing = {{"pinion 1"}, Eigen::MatrixXd::Identity(2, 2)};
   CHECK_THAT(first_problem(all), Contains("unit.housing.stiffness = 4 numbers: 9 numbers"));
   all.unit.housing.stiffness = -Eigen::MatrixXd::Identity(3, 3);

@@ -64,11 +64,12 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
 
 TEST_CASE("A sample whose axes are so far apart that no teeth meet has no outputs", "[studies][sweep]") {
   // m_n = 10 mm: the tips overlap by some 20 mm, so that 30 mm leave air.
-  const std::vector<Override> apart{{"sweep.parameters", "{ \"misalignment.centre_distance\" = { values = [0, 30] } }"}};
+  const std::vector<Override> apart{{"sweep.parameters", "{ \"misalignment.centre_distance\" = { values = [0, 0.1, 30] } }"}};
   const std::vector<StoredSample> samples = samples_of(sweep_study("sampler = \"grid\"\nindices = \"off\"", "", apart));
-  REQUIRE(samples.size() == 2);
+  REQUIRE(samples.size() == 3);
   CHECK(samples[0].result.failure.empty());
-  CHECK_THAT(samples[1].result.failure, Catch::Contains("misalignment.centre_distance") && Catch::Contains("total contact ratio of at least 1"));
+  CHECK(samples[1].result.failure.empty());
+  CHECK_THAT(samples[2].result.failure, Catch::Contains("misalignment.centre_distance") && Catch::Contains("total contact ratio of at least 1"));
 }
 
 TEST_CASE("A sample under a load spectrum has the worst of its loads and the damage of their sum", "[studies][sweep][life]") {
