@@ -105,8 +105,9 @@ const Recorder::Point& Recorder::at(const Eigen::VectorXd& x_asked, bool gradien
     }
   }
   if (evaluations_ >= options_.max_evaluations) {
-    stop(SolverStatus::EvaluationLimit, "the limit of " + std::to_string(options_.max_evaluations) +
-                                            (options_.max_evaluations == 1 ? " evaluation" : " evaluations") + " was reached");
+    // Of a search that goes on after another one the limit is what the other has left.
+    stop(SolverStatus::EvaluationLimit, "optimise.max_evaluations was reached, after " + std::to_string(options_.max_evaluations) +
+                                            (options_.max_evaluations == 1 ? " evaluation" : " evaluations") + " in this search");
   }
 
   known_in_a_row_ = 0;

@@ -155,11 +155,12 @@ function life_table(body, life) {
     ["Loss factor", "", known_to("loss_factor"), 3], ["Loss", "W", known_to("loss_power_W"), 3], ["Film λ_GF", "", known_to("specific_film_thickness"), 3],
     ["Micropitting safety", "", known_to("micropitting_safety"), 3]].filter(([, , value_of]) => has_number(life, (of) => bare(value_of(of))));
   const cases = list(life.cases).map(record), rest = cases.length - MOST_LIFE_ROWS;
+  const load_factors_from = (of) => `${record(of.iso6336).K_from}`, are_mixed = new Set(cases.map(load_factors_from)).size > 1;
   table(body, { title: "Life in numbers",
     note: `The worse of both gears. S_H and S_F are those of ISO 6336-2 and -3. ± is the estimated discretisation error where it is available.${rest > 0 ? ` ${rest} load cases more are in life.csv.` : ""}`,
-    columns: [...case_columns, ...quantities.map(([label, unit, , digits]) => ({ label, unit, digits }))],
+    columns: [...case_columns, ...quantities.map(([label, unit, , digits]) => ({ label, unit, digits })), ...(are_mixed ? [{ label: "K_H of S_H, S_F" }] : [])],
     rows: cases.slice(0, MOST_LIFE_ROWS).map((of) => [`${of.scene}`, of.torque_Nm ?? null, { text: DESIGN_LABEL[of.design] ?? `${of.design}`, class: "word" },
-      ...quantities.map(([, , value_of]) => value_of(of) ?? null)]) });
+      ...quantities.map(([, , value_of]) => value_of(of) ?? null), ...(are_mixed ? [{ text: load_factors_from(of), class: "word" }] : [])]) });
 }
 
 function build_life(results, body, selection) {
