@@ -38,19 +38,21 @@ void read_shaft(StudyReading& reading, Member member) {
   for (const InvalidInput& problem : find_problems(*shaft, study.pair[member].face_width)) refuse(reading, table + "." + problem.field(), problem);
 }
 
-/// No section is thicker than the gear that sits on it.
+/// No section is thicker than the gear that sits on it, by more than the module: drawings of pinions in one piece with their shaft are round.
 void check_sections(StudyReading& reading, Member member) {
   const Study& study = reading.builder.study;
   if (!study.shaft[member] || !reading.problems.empty() || !find_problems(study.pair).empty()) return;
   const ShaftData& shaft = *study.shaft[member];
-  const double tip_diameter = 2.0 * make_gear_pair(study.pair)[member].tip_radius, half = 0.5 * study.pair[member].face_width;
+  const double thickest = 2.0 * make_gear_pair(study.pair)[member].tip_radius + study.pair.normal_module, half = 0.5 * study.pair[member].face_width;
   double begin = 0.0;
   for (std::size_t k = 0; k < shaft.sections.size(); ++k) {
     const double end = begin + shaft.sections[k].length, diameter = shaft.sections[k].outer_diameter;
     const bool is_under = std::max(begin, shaft.gear_position - half) < std::min(end, shaft.gear_position + half);
-    if (is_under && diameter > tip_diameter) {
+    if (is_under && diameter > thickest) {
       const std::string key = std::string(name_of(member)) + ".shaft.sections." + std::to_string(k) + ".outer_diameter";
-      refuse(reading, key, {key, in_words(diameter), "at most " + in_words(tip_diameter) + " mm, the tip diameter of the gear that it runs through"});
+      refuse(
+          reading, key,
+          {key, in_words(diameter), "at most " + in_words(thickest) + " mm, a module more than the tip diameter of the gear that it runs through"});
     }
     begin = end;
   }
