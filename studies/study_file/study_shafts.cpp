@@ -38,7 +38,7 @@ void read_shaft(StudyReading& reading, Member member) {
   for (const InvalidInput& problem : find_problems(*shaft, study.pair[member].face_width)) refuse(reading, table + "." + problem.field(), problem);
 }
 
-/// No section is thicker than the gear that sits on it, by more than the module: drawings of pinions in one piece with their shaft are round.
+/// No section is thicker than the gear that sits on it by more than a module. Drawings of pinions in one piece with their shaft have round diameters.
 void check_sections(StudyReading& reading, Member member) {
   const Study& study = reading.builder.study;
   if (!study.shaft[member] || !reading.problems.empty() || !find_problems(study.pair).empty()) return;
