@@ -103,7 +103,7 @@ function build_comparison(results, body) {
   const note = (other) => percent_change(value, other);
   // Without a design that keeps the constraints the one shown is no optimum.
   const infeasible = optimise.status === "infeasible", shown = infeasible ? "design shown" : "optimum";
-  if (typeof optimise.assessed_design === "string") body.append(el("p", { class: "fine" }, `The optimum here is ${optimise.assessed_design}.`));
+  if (optimise.scatter && typeof optimise.assessed_design === "string") body.append(el("p", { class: "fine" }, `The optimum here is ${optimise.assessed_design}.`));
   figure(figure_grid(body), {
     title: `${capital(name)} of the ${shown} and other designs`,
     wide: true,

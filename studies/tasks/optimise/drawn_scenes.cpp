@@ -110,8 +110,8 @@ std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScen
     for (const OperatingState& state : states) {
       Scene scene = state.scene;
       for (std::size_t k = 0; k < tolerances.size(); ++k) put(scene, tolerances[k], tolerances[k].distribution.quantile(point[k]));
-      for (const PlacementProblem& problem : placement_problems(pair, scene.misalignment))
-        return RefusedDraw{problem.key, i, problem.value, problem.allowed};
+      const std::vector<PlacementProblem> problems = placement_problems(pair, scene.misalignment);
+      if (!problems.empty()) return RefusedDraw{problems.front().key, i, problems.front().value, problems.front().allowed};
     }
   }
   return std::nullopt;
