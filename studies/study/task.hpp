@@ -17,6 +17,7 @@ struct DesignVariable;
 namespace flankwright::studies {
 
 struct NamedText;
+struct ReportSection;
 struct SchemaKey;
 struct Study;
 struct StudyReading;
@@ -51,7 +52,8 @@ struct Task {
   void (*add_json)(const StudyResults&, nlohmann::ordered_json&){nullptr};                 ///< its sections of results.json
   std::vector<NamedText> (*tables)(const StudyResults&){nullptr};                          ///< its CSV files beside those of load cases
   std::string (*summary)(const StudyResults&){nullptr};                                    ///< printed at the end of a run; never empty
-  std::string (*study_template)(){nullptr};                                                ///< printed by `flankwright new`; never empty
+  std::vector<ReportSection> (*report_sections)(){nullptr};  ///< its sections of the report; the folder's scripts in report/ fill them
+  std::string (*study_template)(){nullptr};                  ///< printed by `flankwright new`; never empty
 };
 
 /// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp.

@@ -39,3 +39,5 @@ function build_drawing(results, body) {
     });
   }
 }
+
+add_sections({ drawing: build_drawing });

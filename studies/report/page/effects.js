@@ -84,3 +84,5 @@ function build_effects(results, body) {
     rows: steps.map((step) => [words(step.name), step.why ?? "", time_cell(step.seconds, longest)]),
   });
 }
+
+add_sections({ effects: build_effects });

@@ -22,12 +22,7 @@ const facts = (rows) => el("dl", { class: "facts" }, ...rows.filter((row) => row
 function draw_first_screen(results, selection) {
   const first = document.getElementById("first");
   try {
-    if (results.optimise) optimise_first(first, results, selection);
-    else if (results.sweep) sweep_first(first, results, selection);
-    else if (list(record(results.accuracy).rungs).length) accuracy_first(first, results);
-    else if (list(results.fit).length) fit_first(first, results);
-    else if (selection.cases.length) analysis_first(first, results, selection);
-    else if (results.unloaded) unloaded_first(first, results);
+    task_part(results, "first")(first, results, selection);
   } catch (failure) {
     first.append(el("p", { class: "banner bad" }, `The first screen could not be built: ${failure.message}`));
     console.error(failure);

@@ -156,3 +156,5 @@ function build_flank_load(results, body, selection) {
       (plot) => draw_flank_load(plot, selection.current, quantity, phase)));
   }
 }
+
+add_sections({ "flank-load": build_flank_load });

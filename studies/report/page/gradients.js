@@ -55,3 +55,5 @@ function build_gradients(results, body, selection) {
     }),
   });
 }
+
+add_sections({ gradients: build_gradients });

@@ -40,3 +40,5 @@ function build_inputs(results, body) {
     });
   }
 }
+
+add_sections({ notes: build_notes, inputs: build_inputs });

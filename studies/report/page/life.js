@@ -180,3 +180,5 @@ function build_life(results, body, selection) {
   life_table(body, life);
   strength_table(body, life);
 }
+
+add_sections({ life: build_life });

@@ -250,3 +250,5 @@ function build_load_cases(results, body, { cases }) {
     ]);
   load_factor_table(body, rows);
 }
+
+add_sections({ "transmission-error": build_transmission_error, stiffness: build_stiffness, "load-cases": build_load_cases });

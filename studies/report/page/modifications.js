@@ -64,26 +64,6 @@ const amounts_count = (results) => (normal_share(results) === null ? "Amounts ar
   : "Amounts are material removed, positive into the tooth, along the base tangent in the transverse plane; normal to the flank, as the measurement grid of "
     + `flankwright export has them, they are cos β_b = ${fixed(normal_share(results), 4)} of that.`);
 
-function variable_table(body, results) {
-  const optimise = record(results.optimise);
-  const before = record(optimise.before), after = record(optimise.after);
-  const varied = unique([...Object.keys(record(before.variables)), ...Object.keys(record(after.variables))]);
-  const names = [...[...NAMES.keys()].filter((name) => varied.includes(name)), ...varied.filter((name) => !NAMES.has(name))];
-  if (names.length === 0) return;
-  const units = { ...record(before.variable_units), ...record(after.variable_units) }, share = normal_share(results);
-  table(body, {
-    title: "Design variables",
-    note: amounts_count(results),
-    columns: [{ label: "Variable" }, { label: "Before" }, { label: "After" }, { label: "Change" }, ...(share === null ? [] : [{ label: "After, normal" }]), { label: "Unit" }],
-    rows: names.map((name) => {
-      const from = record(before.variables)[name], to = record(after.variables)[name], unit = units[name];
-      const cell = (value) => ({ value: settled(value, unit), text: ground(value, grinding_step(results, name, unit)) });
-      const normal = share === null ? [] : [unit === "um" ? { value: settled(share * to, unit), text: ground(share * to, 0.1) } : null];
-      return [words(name), cell(from), cell(to), is_number(from) && is_number(to) ? cell(to - from) : null, ...normal, pretty_unit(unit)];
-    }),
-  });
-}
-
 /** Every stored topography: [{gear, design, grid}]. */
 const topographies = (results) => list(results.modifications).map(record)
   .map((entry) => ({
@@ -125,5 +105,7 @@ function build_modifications(results, body) {
       caption: "The surface lies below the unmodified flank (dashed frame) by the removed material; heights are magnified.",
     }, (plot) => draw_surfaces(plot, modified.map((entry) => ({ title: design_title(entry), grid: entry.grid })), removal_scale(own), gear, state));
   }
-  if (results.optimise) variable_table(body, results);
+  task_part(results, "design_table")?.(body, results);
 }
+
+add_sections({ modifications: build_modifications });

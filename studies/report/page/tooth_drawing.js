@@ -125,3 +125,5 @@ function build_gear_pair(results, body) {
       [{ text: label, draw: () => symbols(label) }, geometry[key], unit]),
   });
 }
+
+add_sections({ "gear-pair": build_gear_pair });

@@ -178,3 +178,5 @@ function build_unloaded(results, body) {
   }
   scene_table(body, scenes);
 }
+
+add_sections({ unloaded: build_unloaded });

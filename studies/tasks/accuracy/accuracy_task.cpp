@@ -8,6 +8,7 @@
 #include "studies/tasks/accuracy/accuracy_json.hpp"
 #include "studies/tasks/accuracy/accuracy_tables.hpp"
 #include "studies/tasks/accuracy/accuracy_table.hpp"
+#include "studies/results/report_section.hpp"
 
 namespace flankwright::studies {
 
@@ -33,6 +34,13 @@ void run_accuracy(StudyRun& run) {
 
 const FidelityHierarchy& hierarchy_of(const StudyResults& results) { return *results.found<FidelityHierarchy>(); }
 
+/// An accuracy chosen by a study of another task is shown by the same means.
+std::vector<ReportSection> accuracy_sections() {
+  return {
+      {Chapter::Answer, "accuracy", "Cost of accuracy", [](const Json& r) { return has(r, "accuracy") || has(r, "accuracy_choice"); }},
+  };
+}
+
 }  // namespace
 
 const Task accuracy_task{.name = "accuracy",
@@ -44,6 +52,7 @@ const Task accuracy_task{.name = "accuracy",
                          .add_json = [](const StudyResults& results, Json& json) { json["accuracy"] = hierarchy_json(hierarchy_of(results)); },
                          .tables = [](const StudyResults& results) { return hierarchy_tables(hierarchy_of(results)); },
                          .summary = [](const StudyResults& results) { return hierarchy_summary(hierarchy_of(results)); },
+                         .report_sections = accuracy_sections,
                          .study_template = accuracy_template};
 
 }  // namespace flankwright::studies

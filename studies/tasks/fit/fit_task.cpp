@@ -6,6 +6,7 @@
 #include "studies/tasks/fit/fit_keys.hpp"
 #include "studies/tasks/fit/fit_tables.hpp"
 #include "studies/tasks/fit/fit_template.hpp"
+#include "studies/results/report_section.hpp"
 
 namespace flankwright::studies {
 
@@ -23,6 +24,13 @@ void run_fit(StudyRun& run) {
 
 const GearFits& fits_of(const StudyResults& results) { return *results.found<GearFits>(); }
 
+std::vector<ReportSection> fit_sections() {
+  return {
+      {Chapter::Answer, "deflections", "Deflection of a tooth under load", [](const Json& r) { return has(r, "fit"); }},
+      {Chapter::Answer, "residuals", "Fits beside finite elements", [](const Json& r) { return has(r, "fit"); }},
+  };
+}
+
 }  // namespace
 
 const Task fit_task{.name = "fit",
@@ -33,6 +41,7 @@ const Task fit_task{.name = "fit",
                     .add_json = [](const StudyResults& results, Json& json) { json["fit"] = list(fits_of(results), fit_json); },
                     .tables = [](const StudyResults& results) { return fit_tables(fits_of(results)); },
                     .summary = [](const StudyResults& results) { return fit_summary(fits_of(results)); },
+                    .report_sections = fit_sections,
                     .study_template = fit_template};
 
 }  // namespace flankwright::studies

@@ -10,6 +10,7 @@
 #include "studies/tasks/optimise/optimise_json.hpp"
 #include "studies/tasks/optimise/optimise_keys.hpp"
 #include "studies/tasks/optimise/optimise_reading.hpp"
+#include "studies/tasks/optimise/optimise_report.hpp"
 #include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/tasks/optimise/optimise_run.hpp"
 #include "studies/tasks/optimise/optimise_tables.hpp"
@@ -106,6 +107,7 @@ const Task optimise_task{.name = "optimise",
                          .add_json = add_optimise_json,
                          .tables = optimise_tables,
                          .summary = optimise_summary,
+                         .report_sections = optimise_sections,
                          .study_template = optimise_template};
 
 }  // namespace flankwright::studies

@@ -11,6 +11,7 @@
 #include "studies/tasks/sweep/sweep_statistics.hpp"
 #include "studies/tasks/sweep/sweep_tables.hpp"
 #include "studies/tasks/sweep/sweep_template.hpp"
+#include "studies/results/report_section.hpp"
 
 namespace flankwright::studies {
 
@@ -32,6 +33,16 @@ std::string sweep_run_summary(const StudyResults& results) {
                                                      : analysis_table(results);
 }
 
+bool swept(const Json& r) { return has(r, "sweep") && r.at("sweep").is_object(); }
+
+std::vector<ReportSection> sweep_sections() {
+  return {
+      {Chapter::Answer, "scatter", "Scatter over the samples", swept},
+      {Chapter::Answer, "indices", "Causes of the scatter", [](const Json& r) { return swept(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
+      {Chapter::Answer, "response-maps", "Response maps", [](const Json& r) { return has(r, "sweep", "response_maps"); }},
+  };
+}
+
 }  // namespace
 
 const Task sweep_task{.name = "sweep",
@@ -45,6 +56,7 @@ const Task sweep_task{.name = "sweep",
                       .add_json = add_sweep_json,
                       .tables = sweep_tables,
                       .summary = sweep_run_summary,
+                      .report_sections = sweep_sections,
                       .study_template = sweep_template};
 
 }  // namespace flankwright::studies

@@ -37,8 +37,8 @@ const cheapest_within = (levels, percent) => levels
   .filter((level) => level.axis !== "finest" && record(level.error_percent).worst <= percent)
   .reduce((best, level) => (best && best.seconds <= level.seconds ? best : level), null);
 
-function accuracy_headline(accuracy) {
-  const levels = list(accuracy.rungs).map(record), finest = levels.find((level) => level.axis === "finest") || {};
+function accuracy_headline(results) {
+  const levels = list(record(results.accuracy).rungs).map(record), finest = levels.find((level) => level.axis === "finest") || {};
   const enough = cheapest_within(levels, 5);
   if (!enough) return `No fidelity level comes within 5 % of the finest, which takes ${time_text(finest.seconds)}`;
   return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest level in ${time_text(enough.seconds)} instead of ${time_text(finest.seconds)}: “${enough.name}”`;
@@ -159,3 +159,19 @@ function build_accuracy_choice(choice, body) {
     rows: [...tried, ...levels],
   });
 }
+
+function accuracy_first(first, results) {
+  const levels = list(record(results.accuracy).rungs).map(record);
+  panel(first, { title: "Error and time of each fidelity level", span: 7, href: "accuracy" }, (plot) => draw_levels(plot, levels, first_figure(record(results.accuracy)), 400));
+  panel(first, { title: "Cheapest level within an error", span: 5, href: "accuracy" }, (plot) => {
+    const rows = [10, 5, 2, 1, 0.5, 0.1].map((percent) => ({ percent, level: cheapest_within(levels, percent) })).filter(({ level }) => level);
+    const tightest = rows.filter(({ level }, i) => rows[i + 1]?.level !== level), finest = levels.find((level) => level.axis === "finest");
+    plot.append(facts(tightest.map(({ percent, level }) => [`Within ${fmt(percent)} %`,
+      el("span", {}, el("b", {}, `${level.name}, ${time_text(level.seconds)}`), el("small", {}, ` ${settings_text(level.settings)}`))])));
+    if (finest) plot.append(facts([["The finest", el("span", {}, el("b", {}, time_text(finest.seconds)), el("small", {}, ` ${settings_text(finest.settings)}`))]]));
+    plot.append(el("p", { class: "fine" }, "Times are of one thread with influence values known. Errors are differences from the finest level, of the worst quantity in all load cases."));
+  });
+}
+
+add_task_page({ key: "accuracy", headline: accuracy_headline, first: accuracy_first });
+add_sections({ accuracy: build_accuracy });

@@ -118,3 +118,5 @@ function build_convergence(results, body) {
     read_x: (x) => `evaluation ${x}`, read_y: (y) => fmt(y, 3), height: 250,
   }));
 }
+
+add_sections({ scenes: build_scenes, convergence: build_convergence });

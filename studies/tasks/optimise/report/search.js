@@ -98,3 +98,5 @@ function build_search(results, body) {
   }
   starts_tables(body, optimise, units);
 }
+
+add_sections({ search: build_search });

@@ -67,3 +67,5 @@ function build_sensitivity(results, body) {
       shown(s.more_optimised_anew)]),
   });
 }
+
+add_sections({ governing: build_governing, sensitivity: build_sensitivity });

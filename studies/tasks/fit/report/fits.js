@@ -1,18 +1,10 @@
-// Compliance of single gears: the fit and the other models compared with finite elements, and deflection curves.
+// Compliance of single gears: the fit and the other models compared with finite elements.
 
 const FORM_LABEL = {
   kernels: "Sum of kernels",
   thesis_in_master: "Haddad's curves, body inside",
   thesis_separate: "Haddad's curves, body apart",
 };
-const MODEL_LABEL = {
-  "finite elements": "finite elements",
-  fitted: "fitted kernels",
-  thesis: "Haddad's curves, body apart",
-  plate: "cantilever plate",
-  "thin slices": "thin slices",
-};
-const HEIGHT_LABEL = { 1: "tip", 0: "middle", "-1": "root" };
 
 const apart_label = (m) => (m === 0 ? "loaded tooth" : m === 1 ? "one pitch away" : `${m} pitches away`);
 
@@ -24,9 +16,8 @@ function residual_rows(fit) {
       list(record(residuals[form])[points]).map((d) => ({ form, points, ...record(d) }))));
 }
 
-const fit_title = (fit) => `${capital(fit.gear || "gear")}, ${fmt(fit.teeth)} teeth`;
-
-function fit_headline(fits) {
+function fit_headline(results) {
+  const fits = list(results.fit).map(record);
   const closest = fits.map((fit) => {
     const own = residual_rows(fit).filter((row) => row.form === "kernels" && row.teeth_apart === 0);
     return own.find((row) => row.points === "unseen") || own[0];
@@ -36,8 +27,8 @@ function fit_headline(fits) {
   return parts.length ? capital(parts.join("; ")) : "No gear could be fitted";
 }
 
-function fit_tiles(fits) {
-  return fits.flatMap((fit) => {
+function fit_tiles(results) {
+  return list(results.fit).map(record).flatMap((fit) => {
     const elements = record(fit.finite_elements);
     return [
       tile(`Fit, ${fit.gear}`, fit.status, "", { detail: `${fmt(fit.iterations, 6)} steps, ${fmt(fit.coefficients)} coefficients` }),
@@ -49,55 +40,6 @@ function fit_tiles(fits) {
 
 function fit_verdict(results, verdict) {
   for (const line of list(results.requirements_not_met)) verdict.append(el("p", { class: "banner" }, `${capital(String(line))}`));
-}
-
-/** A choice of one of a few things that redraws a figure. */
-function add_choice(parent, label, options, state, key, redraw) {
-  if (options.length < 2) return;
-  const { node } = choice(label, options, String(state[key]), (value) => {
-    state[key] = value;
-    redraw();
-  });
-  node.classList.add("no-print");
-  parent.append(node);
-}
-
-function draw_deflections(plot, fit, state) {
-  const curves = list(fit.curves).map(record);
-  const loads = unique(curves.map((curve) => record(curve.load).u));
-  const stations = unique(curves.map((curve) => record(curve.load).zeta)).sort((a, b) => a - b);
-  const teeth = unique(curves.map((curve) => curve.tooth)).sort((a, b) => a - b);
-  const ends = ["acute end", "mid face", "obtuse end"];
-  const area = el("div");
-  const draw = () => {
-    clear_plot(area);
-    const shown = curves.filter((curve) => String(curve.load.u) === state.u && String(curve.load.zeta) === state.zeta
-      && String(curve.tooth) === state.tooth);
-    const models = Object.keys(MODEL_LABEL);
-    const width = { "finite elements": 3.4 };
-    xy_chart(area, {
-      label: "Deflection along the tooth under a point load",
-      curves: shown.map((curve) => ({
-        label: MODEL_LABEL[curve.model] || curve.model,
-        points: list(curve.zeta).map((zeta, i) => ({ x: zeta, y: curve.value[i] })),
-        colour: curve.model === "finite elements" ? css_colour("ink") : sequence_colour(models.indexOf(curve.model) - 1),
-        width: width[curve.model] || 1.8,
-        dashed: curve.model === "thin slices" || curve.model === "thesis",
-        order: curve.model === "finite elements" ? 1 : 0,
-      })),
-      x: "from the acute end [modules]", y: "deflection · E mₙ / F",
-      read_x: (x) => `${fmt(x, 3)} modules from the acute end`, read_y: (y) => fmt(y, 3), height: 340,
-    });
-  };
-  const choices = el("div");
-  const option = (value, label) => ({ value: String(value), label });
-  add_choice(choices, "Load at the", loads.map((u) => option(u, HEIGHT_LABEL[u] || `u = ${fmt(u, 2)}`)), state, "u", draw);
-  add_choice(choices, "of the", stations.map((zeta, i) => option(zeta, stations.length === 3 ? ends[i] : fmt(zeta, 3))),
-    state, "zeta", draw);
-  const tooth_name = (tooth) => (tooth === 0 ? "the loaded one" : `${fmt(Math.abs(tooth))} ${tooth > 0 ? "after" : "before"} it`);
-  add_choice(choices, "Tooth", teeth.map((tooth) => option(tooth, tooth_name(tooth))), state, "tooth", draw);
-  plot.append(choices, area);
-  draw();
 }
 
 function draw_residual_shares(plot, fit) {
@@ -173,28 +115,12 @@ function fit_facts(body, fit) {
   });
 }
 
-function build_deflections(results, body) {
-  for (const fit of [...list(results.fit), ...list(results.deflections)].map(record)) {
-    const curves = list(fit.curves).map(record);
-    if (curves.length === 0) continue;
-    const zetas = unique(curves.map((curve) => record(curve.load).zeta)).sort((a, b) => a - b);
-    const state = { u: "1", zeta: String(zetas[Math.floor(zetas.length / 2)]), tooth: "0" };
-    figure(figure_grid(body), {
-      title: `${fit_title(fit)}: deflection along a tooth under a point load`,
-      wide: true,
-      caption: "Deflection of the tooth's centre surface along the flank normal at the height of the load, times E mₙ / F, "
-        + "without local contact and shaft motion. The plate and the slices model neither the gear body nor other teeth; the "
-        + "load on the slices is spread over one module of the contact line.",
-    }, (plot) => draw_deflections(plot, fit, state));
-  }
-}
-
 function build_residuals(results, body) {
   for (const fit of list(results.fit).map(record)) {
     if (residual_rows(fit).length === 0) continue;
     const grid = figure_grid(body);
     figure(grid, {
-      title: `${fit_title(fit)}: residuals at fitted and unseen stations`,
+      title: `${gear_title(fit)}: residuals at fitted and unseen stations`,
       wide: true,
       caption: "Fraction of all pairs of stations within a relative residual: the further left a curve, the closer the fit. "
         + "Dashed: fitted stations; full: stations that the fit has not seen.",
@@ -205,3 +131,18 @@ function build_residuals(results, body) {
     fit_facts(tables, fit);
   }
 }
+
+function fit_first(first, results) {
+  for (const fit of list(results.fit).map(record)) {
+    panel(first, { title: `${gear_title(fit)}: residuals`, span: list(results.fit).length > 1 ? 6 : 7, href: "residuals" }, (plot) => draw_residual_shares(plot, fit));
+    if (list(results.fit).length > 1) continue;
+    panel(first, { title: "What it costs", span: 5, href: "residuals" }, (plot) => {
+      const elements = record(fit.finite_elements);
+      plot.append(facts([["Status", fit.status], ["Coefficients", fmt(fit.coefficients)], ["Unknowns", fmt(elements.unknowns, 9)],
+        ["Mesh and factorisation", time_text(elements.model_seconds)], ["Loads solved", time_text(elements.loads_seconds)], ["Fit", time_text(fit.fit_seconds)]]));
+    });
+  }
+}
+
+add_task_page({ key: "fit", headline: fit_headline, verdict: fit_verdict, tiles: fit_tiles, first: fit_first });
+add_sections({ residuals: build_residuals });

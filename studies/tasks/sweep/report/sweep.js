@@ -13,7 +13,8 @@ const leading_output = (outputs) => (outputs.find(([name]) => name === "peak_con
 /** From here on one sample is no more than a per cent of all. */
 const SAMPLES_OF_A_PERCENT = 100;
 
-function sweep_headline(sweep) {
+function sweep_headline(results) {
+  const sweep = record(results.sweep);
   const outputs = sweep_outputs(sweep), name = leading_output(outputs), of = record(record(sweep.statistics)[name]);
   if (!is_number(of.mean)) return "No sample of the sweep has results";
   const unit = sweep_unit(of.unit);
@@ -22,14 +23,17 @@ function sweep_headline(sweep) {
       : `worst of ${fmt(of.samples, 9)} samples ${fmt(record(of.worst).value, 3)} ${unit}`);
 }
 
-function sweep_tiles(sweep) {
+function sweep_tiles(results) {
+  const sweep = record(results.sweep);
   const shown = ["peak_to_peak_arcsec", ...QUANTITIES.filter((of) => of.is_headline && !of.smaller_is_worse).map((of) => of.key)];
-  return sweep_outputs(sweep).filter(([name]) => shown.includes(name)).map(([name, of]) =>
+  const tiles = sweep_outputs(sweep).filter(([name]) => shown.includes(name)).map(([name, of]) =>
     tile(`${capital(words(name))}, mean`, of.mean, sweep_unit(of.unit),
       { detail: `σ ${fmt(of.std, 2)}, worst ${fmt(record(of.worst).value, 3)}` }));
+  return [...tiles, ...pair_tiles(results)];
 }
 
-function sweep_verdict(sweep, verdict) {
+function sweep_verdict(results, verdict) {
+  const sweep = record(results.sweep);
   if (!(sweep.failed > 0)) return;
   const reasons = list(sweep.failures).map(record).slice(0, 3).map((f) => `${fmt(f.count, 9)} × ${f.reason}`);
   verdict.append(el("p", { class: "banner" }, `${fmt(sweep.failed, 9)} of ${fmt(sweep.samples, 9)} samples failed: ${reasons.join("; ")}.`));
@@ -254,3 +258,32 @@ function build_response_maps(results, body) {
     draw();
   });
 }
+
+const SWEEP_FIRST = ["peak_contact_stress_MPa", "te_peak_to_peak_um", "peak_root_stress_MPa", "peak_to_peak_arcsec", "load_factor", "mean_stiffness_N_per_mm_um"];
+
+function sweep_facts(sweep) {
+  const name = leading_output(sweep_outputs(sweep)), of = record(record(sweep.statistics)[name]), unit = sweep_unit(of.unit);
+  const samples = sweep.samples - sweep.failed;
+  return [
+    is_number(of.std) ? ["Mean of the samples", `${with_error(of.mean, of.std / Math.sqrt(samples), 4)} ${unit}`] : null,
+    is_number(record(of.worst).value) ? ["Worst sample", `${fmt(record(of.worst).value, 4)} ${unit}, sample ${fmt(record(of.worst).sample, 9)}`] : null,
+    record(of.worst).study ? ["Its study", el("code", {}, record(of.worst).study)] : null,
+    ["Samples", `${fmt(samples, 9)} of ${fmt(sweep.samples, 9)} analysed, ${words(sweep.sampler)}`, sweep.failed > 0 ? "bad" : null],
+    is_number(sweep.seconds) ? ["A sample takes", time_text(sweep.seconds / Math.max(1, sweep.samples))] : null,
+  ];
+}
+
+function sweep_first(first, results) {
+  const sweep = record(results.sweep), outputs = sweep_outputs(sweep), leading = leading_output(outputs);
+  const shown = SWEEP_FIRST.map((name) => outputs.find(([own]) => own === name)).filter(Boolean).slice(0, 4);
+  panel(first, { title: "Scatter of the outputs", span: 6, href: "scatter" }, (plot) => plot.append(
+    el("div", { class: "small-multiples two" }, ...shown.map(([name, of]) => el("div", {}, draw_histogram(name, of)))),
+    el("p", { class: "fine" }, "Full line: mean; dashed: 1 % and 99 % of the samples.")));
+  panel(first, { title: leading ? `Causes of the scatter of the ${words(leading)}` : "Causes of the scatter", span: 6, href: "indices" },
+    (plot) => draw_tornado(plot, record(record(record(sweep.statistics)[leading]).indices), 9, sweep.sampler === "grid"));
+  panel(first, { title: leading ? `How sure: ${words(leading)}` : "How sure", span: 8, href: "scatter" }, (plot) => plot.append(facts(sweep_facts(sweep))));
+  panel(first, { title: "What it costs", span: 4, href: "effects" }, (plot) => cost_panel(plot, results));
+}
+
+add_task_page({ key: "sweep", headline: sweep_headline, verdict: sweep_verdict, tiles: sweep_tiles, first: sweep_first });
+add_sections({ scatter: build_scatter, indices: build_indices, "response-maps": build_response_maps });

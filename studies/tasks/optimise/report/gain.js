@@ -1,39 +1,5 @@
 // The gain in each scene, the constraints and the further objectives.
 
-const MOST_SCENES = 8;
-
-
-/** Bars of each row, before above after or after alone, with error whiskers where errors are known. @param rows [{label, before?, after, before_error?, after_error?, strong?}] */
-function draw_pairs(plot, rows, unit) {
-  const width = Math.max(280, plot.clientWidth || 400), paired = rows.some((row) => is_number(row.before)), row_height = paired ? 22 : 20, bottom = 2;
-  const note = (row) => (paired ? `${fmt(row.before, 3)} → ${fmt(row.after, 3)}` : with_error(row.after, row.after_error, 3));
-  const wide = 10 + 7 * Math.max(...rows.map((row) => `${note(row)} ${percent_change(row.before, row.after) ?? ""}`.length));
-  const left = Math.min(0.45 * width, 16 + 7.2 * Math.max(...rows.map((row) => row.label.length)));
-  const height = row_height * rows.length + bottom;
-  const room = Math.floor((left - 14) / 7), shortened = (label) => (label.length > room ? `${label.slice(0, room - 1)}…` : label);
-  const end = (row) => maximum(["before", "after"].map((design) => row[design] + Math.max(0, row[`${design}_error`] || 0)));  // of the longer whisker
-  const high = maximum(rows.map(end)) || 1;
-  const to_x = (value) => left + ((width - left - wide) * Math.max(0, value)) / high;
-  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "A bar for each scene" });
-  rows.forEach((row, i) => {
-    const y = row_height * i + 3;
-    picture.append(svg("text", { x: left - 8, y: y + 13, "text-anchor": "end", class: row.strong ? "small strong" : "small" }, shortened(row.label), svg("title", {}, row.label)));
-    ["before", "after"].forEach((design, k) => {
-      if (!is_number(row[design])) return;
-      const top = paired ? y + 8 * k : y + 3, thickness = paired ? 7 : 11, error = row[`${design}_error`];
-      picture.append(svg("rect", { x: left, y: top, width: Math.max(1, to_x(row[design]) - left), height: thickness, rx: 1.5, fill: design_colour(design) },
-        svg("title", {}, `${row.label}${paired ? `, ${design}` : ""}: ${with_error(row[design], error, 4)} ${unit}`)));
-      if (error > 0) {
-        picture.append(svg("line", { x1: to_x(row[design] - error), x2: to_x(row[design] + error), y1: top + thickness / 2, y2: top + thickness / 2, class: "whisker" }));
-      }
-    });
-    const change = percent_change(row.before, row.after);
-    picture.append(svg("text", { x: to_x(end(row)) + 6, y: y + 13, class: row.after > row.before ? "small worse" : "small" },
-      note(row), svg("tspan", { class: "muted" }, change ? ` ${change}` : "")));
-  });
-  plot.append(picture);
-}
-
 /** "26 of 27 scenes are better; “aligned” is worse by 9.7 %." */
 function scenes_sentence(scenes, label) {
   const known = scenes.filter((scene) => is_number(scene.before) && is_number(scene.after));

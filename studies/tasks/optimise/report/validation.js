@@ -26,3 +26,5 @@ function build_validation(results, body) {
   // With scatter in the search its section has the same list.
   if (!scatter_of(optimise)) tolerances_table(body, list(validation.tolerances).map(record));
 }
+
+add_sections({ validation: build_validation });

@@ -134,3 +134,5 @@ function class_plot(plot, classes, key) {
   known.forEach((row, i) => pen.fillRect(to_x(grades[i]) - 3, to_y(values[i]) - 3, 6, 6));
   plot.append(canvas);
 }
+
+add_sections({ tolerances: build_tolerances });
