@@ -85,6 +85,12 @@ class DesignRun {
   }
 
   void first_objective() {
+    if (options_.nearest_first && exceeds(problem_.start())) {
+      x_ = problem_.start();
+      result_.status = SolverStatus::Infeasible;
+      result_.message = "no design that keeps the constraints was met";
+      return;
+    }
     result_.runs = run_from_starts(problem_, search_options(), options_.starts);
     result_.optima = distinct_optima(result_.runs, DesignResult::same_objective);
     for (const LocalRun& run : result_.runs) {
@@ -97,10 +103,15 @@ class DesignRun {
     take(best);
   }
 
+  /// Whether a design is beyond limits that judged_by_excess() knows.
+  bool exceeds(const Eigen::VectorXd& x) {
+    return problem_.has_upper_bounds() && problem_.violation(problem_.analyse(x, false)) > DesignLog::tolerance;
+  }
+
   /// Where no design that keeps the constraints was met: seeks the one that exceeds them by least, and goes on from there where that keeps them.
   void restore() {
+    if (!exceeds(x_) || is_spent()) return;
     double excess = problem_.violation(problem_.analyse(x_, false));
-    if (!(excess > DesignLog::tolerance) || !problem_.has_upper_bounds() || is_spent()) return;
     const auto count = [&](const LocalRun& run) {
       result_.evaluations += run.evaluations;
       result_.failures += run.failures;

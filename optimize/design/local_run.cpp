@@ -109,7 +109,9 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     const bool settled = !program.is_majorant() || !best.gains_on(last, round_tolerance_of(options));
     const bool all_known = program.add_candidates(x) == 0, gained = best.gains_on(last, stall_gain_of(options));
     last = best;
-    const bool is_done = ((all_known || holds) && settled && !stalled) || (stalled && !gained && patience == patient);
+    // Where no design keeps the limits, another round from the same one repeats the last: the excess is searched next, see DesignResult.
+    const bool leaves_it_to_the_excess = !best.feasible && !gained && problem.has_upper_bounds();
+    const bool is_done = ((all_known || holds) && settled && !stalled) || (stalled && !gained && patience == patient) || leaves_it_to_the_excess;
     if (stalled && has_finisher && run.finished_by.empty()) {
       run.finished_by = solver = options.finisher;
       patience = patience_of(solver);

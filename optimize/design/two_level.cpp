@@ -165,6 +165,7 @@ void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign&
   finish.solver.finisher = "none";
   finish.solver.tolerance = std::max(options.solver.tolerance, fine_tolerance);
   finish.most_search_analyses = most_fine_analyses;
+  finish.nearest_first = found.design.status == SolverStatus::Infeasible;
   const std::int64_t cycles_before = problem.cycles();
   DesignResult fine = optimise_design(problem, finish);
   found.fine.cycles += problem.cycles() - cycles_before;
