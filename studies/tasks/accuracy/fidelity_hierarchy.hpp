@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "studies/analysis/fidelity_level.hpp"
+#include "studies/tasks/accuracy/accuracy_table.hpp"
 
 namespace flankwright::studies {
 
