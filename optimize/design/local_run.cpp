@@ -111,7 +111,12 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     last = best;
     // Where no design keeps the limits, another round from the same one repeats the last: the excess is searched next, see DesignResult.
     const bool leaves_it_to_the_excess = !best.feasible && !gained && problem.has_upper_bounds();
-    const bool is_done = ((all_known || holds) && settled && !stalled) || (stalled && !gained && patience == patient) || leaves_it_to_the_excess;
+    if (leaves_it_to_the_excess) {
+      run.status = SolverStatus::Infeasible;
+      run.message += "; no design that keeps the limits was met";
+      break;
+    }
+    const bool is_done = ((all_known || holds) && settled && !stalled) || (stalled && !gained && patience == patient);
     if (stalled && has_finisher && run.finished_by.empty()) {
       run.finished_by = solver = options.finisher;
       patience = patience_of(solver);

@@ -115,6 +115,34 @@ TEST_CASE("Where no design keeps the constraints the one that exceeds them by le
   CHECK(shown.after.constraint_values[0] == Approx(lowest_stress.after.objective).epsilon(1e-4));  // the optimiser's tolerance
 }
 
+TEST_CASE("A search that begins with the least excess ends as any other, and leaves the objective alone where no design keeps the limits",
+          "[optimize][design]") {
+  DesignTask task = spur({10.0, -10.0});
+  const double lowest = optimise(task).after.objective;
+  task.objective = {term(Output::TePeakToPeak)};
+  const double limit_over_lowest = GENERATE(0.8, 1.1);
+  OutputConstraint bound{term(Output::PeakContactStress)};
+  bound.maximum = limit_over_lowest * lowest;
+  task.constraints = {bound};
+  const DesignResult usual = optimise(task, "nlopt:slsqp");
+  REQUIRE(usual.before.constraint_values[0] > bound.maximum);
+  DesignProblem problem(task);
+  DesignOptions options;
+  options.solver.name = "nlopt:slsqp";
+  options.nearest_first = true;
+  const DesignResult nearest = optimise_design(problem, options);
+  CAPTURE(limit_over_lowest, usual.message, nearest.message, usual.evaluations, nearest.evaluations);
+  constexpr double tolerance = 1e-3;  // the optimum is flat, and is reached from another side
+  CHECK((nearest.status == SolverStatus::Infeasible) == (limit_over_lowest < 1.0));
+  CHECK((usual.status == SolverStatus::Infeasible) == (limit_over_lowest < 1.0));
+  CHECK(nearest.after.constraint_values[0] == Approx(usual.after.constraint_values[0]).epsilon(tolerance));
+  if (limit_over_lowest < 1.0) {
+    CHECK(nearest.evaluations < usual.evaluations);
+  } else {
+    CHECK(nearest.after.objective == Approx(usual.after.objective).epsilon(tolerance));
+  }
+}
+
 TEST_CASE("Every way of combining the scenes finds a design that is better in its own sense", "[optimize][design][slow]") {
   const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar);
   CAPTURE(to_string(over));
