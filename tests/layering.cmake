@@ -12,7 +12,8 @@ set(FLOW core/base core/gear core/flank
     core/compliance/local core/compliance/tooth core/compliance/thin_slice core/compliance/finite_element core/compliance/pair
     core/compliance/fitted core/compliance/plate core/compliance/shaft core/compliance/comparison core/compliance/model
     core/effects core/load/solve core/load/cycle core/rating core/fidelity
-    optimize/solvers optimize/sampling optimize/design optimize/assessment
+    optimize/solvers optimize/sampling
+    optimize/design/outputs optimize/design/problem optimize/design/search optimize/design/grinding optimize/design optimize/design/scatter optimize/assessment
     studies/base studies/study studies/compliance studies/study_file studies/analysis studies/results
     studies/tasks/analyse studies/tasks/optimise studies/tasks/sweep studies/tasks/accuracy studies/tasks/fit studies/tasks/geometry
     studies/tasks

@@ -13,7 +13,7 @@ namespace flankwright {
 
 /// One row of the table of a loaded mesh cycle's quantities: a number, or one for each order of the mesh frequency.
 /// Results, their gradients and errors, tables, sweeps and the report are written from these rows. What an objective may name has a row in
-/// optimize/design/design_output.cpp as well.
+/// optimize/design/outputs/design_output.cpp as well.
 struct CycleQuantity {
   std::string_view name;       ///< "te_peak_to_peak": as objectives and bounds name it
   std::string_view key;        ///< "te_peak_to_peak_um": in results, with its unit

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "optimize/design/design_log.hpp"
+#include "optimize/design/search/design_log.hpp"
 #include "optimize/design/two_level.hpp"
 
 namespace flankwright {

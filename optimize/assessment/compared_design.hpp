@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/design/design_problem.hpp"
+#include "optimize/design/problem/design_problem.hpp"
 
 namespace flankwright {
 

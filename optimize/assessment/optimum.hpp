@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "optimize/design/local_model.hpp"
+#include "optimize/design/search/local_model.hpp"
 
 namespace flankwright {
 

@@ -5,8 +5,8 @@
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/assessment/validation.hpp"
-#include "optimize/design/draws.hpp"
-#include "optimize/design/screening.hpp"
+#include "optimize/design/scatter/draws.hpp"
+#include "optimize/design/scatter/screening.hpp"
 #include "optimize/design/two_level.hpp"
 
 namespace flankwright {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <utility>
 
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/problem/design_task.hpp"
 
 namespace flankwright {
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "optimize/assessment/optimum.hpp"
-#include "optimize/design/optimality.hpp"
+#include "optimize/design/search/optimality.hpp"
 
 namespace flankwright {
 

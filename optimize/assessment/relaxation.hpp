@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "optimize/design/local_model.hpp"
+#include "optimize/design/search/local_model.hpp"
 
 namespace flankwright {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "optimize/design/design_log.hpp"
+#include "optimize/design/search/design_log.hpp"
 #include "optimize/design/two_level.hpp"
 
 namespace flankwright {

@@ -1,6 +1,6 @@
 #include "optimize/assessment/validation.hpp"
 
-#include "optimize/design/draws.hpp"
+#include "optimize/design/scatter/draws.hpp"
 
 #include <tbb/parallel_for.h>
 

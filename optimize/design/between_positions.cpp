@@ -7,8 +7,8 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
-#include "optimize/design/design_log.hpp"
-#include "optimize/design/grindable_design.hpp"
+#include "optimize/design/search/design_log.hpp"
+#include "optimize/design/grinding/grindable_design.hpp"
 #include "optimize/solvers/solver.hpp"
 
 namespace flankwright {

@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "optimize/design/design_problem.hpp"
-#include "optimize/design/grindable_design.hpp"
-#include "optimize/design/local_run.hpp"
-#include "optimize/design/multi_start.hpp"
-#include "optimize/design/optimality.hpp"
-#include "optimize/design/rounding.hpp"
+#include "optimize/design/problem/design_problem.hpp"
+#include "optimize/design/grinding/grindable_design.hpp"
+#include "optimize/design/search/local_run.hpp"
+#include "optimize/design/search/multi_start.hpp"
+#include "optimize/design/search/optimality.hpp"
+#include "optimize/design/grinding/rounding.hpp"
 
 namespace flankwright {
 

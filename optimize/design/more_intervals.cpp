@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "optimize/design/design_output.hpp"
+#include "optimize/design/outputs/design_output.hpp"
 
 namespace flankwright {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimize/design/aggregate.hpp"
-#include "optimize/design/scene_outputs.hpp"
+#include "optimize/design/outputs/aggregate.hpp"
+#include "optimize/design/outputs/scene_outputs.hpp"
 
 namespace flankwright {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "optimize/design/design_log.hpp"
+#include "optimize/design/search/design_log.hpp"
 
 namespace flankwright {
 

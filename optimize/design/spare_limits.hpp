@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/problem/design_task.hpp"
 
 namespace flankwright {
 

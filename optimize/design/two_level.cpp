@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
-#include "optimize/design/design_log.hpp"
-#include "optimize/design/task_checks.hpp"
+#include "optimize/design/search/design_log.hpp"
+#include "optimize/design/problem/task_checks.hpp"
 
 namespace flankwright {
 

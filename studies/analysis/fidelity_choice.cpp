@@ -8,7 +8,7 @@
 #include <map>
 
 #include "core/base/stopwatch.hpp"
-#include "optimize/design/for_each_in_parallel.hpp"
+#include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/analysis/fit_error.hpp"
 
 namespace flankwright::studies {

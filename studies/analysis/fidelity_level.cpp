@@ -5,7 +5,7 @@
 
 #include "core/base/thread_stopwatch.hpp"
 #include "core/rating/contact_peaks.hpp"
-#include "optimize/design/for_each_in_parallel.hpp"
+#include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/analysis/study_effects.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "core/load/cycle/cycle_figures.hpp"
 #include "core/fidelity/discretisation.hpp"
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/problem/design_task.hpp"
 #include "core/compliance/model/gear_structures.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/study/study.hpp"

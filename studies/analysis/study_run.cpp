@@ -15,7 +15,7 @@
 #include "core/load/cycle/mesh_motion.hpp"
 #include "core/load/cycle/mesh_root_stress.hpp"
 #include "core/rating/shaft_misalignment.hpp"
-#include "optimize/design/for_each_in_parallel.hpp"
+#include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "optimize/design/for_each_in_parallel.hpp"
+#include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/compliance/disk_store.hpp"
 
 namespace flankwright::studies {

@@ -14,7 +14,7 @@
 #include "core/gear/gear_data.hpp"
 #include "core/flank/modifications/modification.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/problem/design_task.hpp"
 #include "studies/study/life_table.hpp"
 #include "studies/study/scene_tolerance.hpp"
 #include "studies/study/task.hpp"

@@ -2,7 +2,7 @@
 #include <array>
 
 #include "core/base/error.hpp"
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/problem/design_task.hpp"
 #include "studies/study/task.hpp"
 #include "studies/tasks/accuracy/accuracy_task.hpp"
 #include "studies/tasks/analyse/analyse_task.hpp"

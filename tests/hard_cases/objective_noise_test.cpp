@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "optimize/design/design_problem.hpp"
+#include "optimize/design/problem/design_problem.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/study_file/study_file.hpp"

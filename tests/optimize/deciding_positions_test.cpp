@@ -1,4 +1,4 @@
-#include "optimize/design/deciding_positions.hpp"
+#include "optimize/design/grinding/deciding_positions.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

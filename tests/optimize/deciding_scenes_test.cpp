@@ -1,8 +1,8 @@
-#include "optimize/design/deciding_scenes.hpp"
+#include "optimize/design/search/deciding_scenes.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "optimize/design/local_run.hpp"
+#include "optimize/design/search/local_run.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;

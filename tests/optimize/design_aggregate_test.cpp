@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "optimize/design/aggregate.hpp"
+#include "optimize/design/outputs/aggregate.hpp"
 
 using namespace flankwright;
 

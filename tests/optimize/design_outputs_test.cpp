@@ -6,7 +6,7 @@
 
 #include "core/contact/unloaded/transmission_error.hpp"
 #include "core/gear/gear_pair.hpp"
-#include "optimize/design/scene_outputs.hpp"
+#include "optimize/design/outputs/scene_outputs.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/output_gradients.hpp"
 

@@ -1,4 +1,4 @@
-#include "optimize/design/design_problem.hpp"
+#include "optimize/design/problem/design_problem.hpp"
 
 #include <tbb/global_control.h>
 

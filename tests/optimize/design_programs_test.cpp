@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "optimize/design/direct_program.hpp"
-#include "optimize/design/epigraph_program.hpp"
+#include "optimize/design/search/direct_program.hpp"
+#include "optimize/design/search/epigraph_program.hpp"
 
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/program_gradients.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/design/design_problem.hpp"
+#include "optimize/design/problem/design_problem.hpp"
 
 /// Small design tasks that the tests of optimize share: real pairs, coarsely resolved.
 namespace flankwright::design_tasks {

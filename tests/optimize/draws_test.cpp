@@ -1,4 +1,4 @@
-#include "optimize/design/draws.hpp"
+#include "optimize/design/scatter/draws.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -6,8 +6,8 @@
 
 #include "optimize/assessment/predicted_statistic.hpp"
 #include "optimize/assessment/validation.hpp"
-#include "optimize/design/scatter_search.hpp"
-#include "optimize/design/statistic_model.hpp"
+#include "optimize/design/scatter/scatter_search.hpp"
+#include "optimize/design/scatter/statistic_model.hpp"
 #include "optimize/sampling/distribution.hpp"
 #include "optimize/sampling/sample_design.hpp"
 #include "tests/optimize/design_tasks.hpp"

@@ -1,4 +1,4 @@
-#include "optimize/design/grindable_design.hpp"
+#include "optimize/design/grinding/grindable_design.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

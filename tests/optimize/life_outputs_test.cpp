@@ -1,13 +1,13 @@
-#include "optimize/design/life_outputs.hpp"
+#include "optimize/design/outputs/life_outputs.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/base/error.hpp"
 #include "optimize/design/design_optimiser.hpp"
-#include "optimize/design/direct_program.hpp"
-#include "optimize/design/epigraph_program.hpp"
-#include "optimize/design/scene_outputs.hpp"
+#include "optimize/design/search/direct_program.hpp"
+#include "optimize/design/search/epigraph_program.hpp"
+#include "optimize/design/outputs/scene_outputs.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/output_gradients.hpp"
 #include "tests/optimize/program_gradients.hpp"

@@ -1,4 +1,4 @@
-#include "optimize/design/mesh_store.hpp"
+#include "optimize/design/problem/mesh_store.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "optimize/design/multi_start.hpp"
+#include "optimize/design/search/multi_start.hpp"
 
 #include <tbb/global_control.h>
 

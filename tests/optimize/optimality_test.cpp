@@ -1,4 +1,4 @@
-#include "optimize/design/optimality.hpp"
+#include "optimize/design/search/optimality.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

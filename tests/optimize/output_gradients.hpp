@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "optimize/design/design_problem.hpp"
+#include "optimize/design/problem/design_problem.hpp"
 
 namespace flankwright::design_tasks {
 

@@ -1,4 +1,4 @@
-#include "optimize/design/rounding.hpp"
+#include "optimize/design/grinding/rounding.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

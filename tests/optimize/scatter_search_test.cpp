@@ -5,11 +5,11 @@
 #include <random>
 
 #include "optimize/assessment/validation.hpp"
-#include "optimize/design/direct_program.hpp"
-#include "optimize/design/local_run.hpp"
-#include "optimize/design/model_step.hpp"
-#include "optimize/design/scatter_search.hpp"
-#include "optimize/design/screening.hpp"
+#include "optimize/design/search/direct_program.hpp"
+#include "optimize/design/search/local_run.hpp"
+#include "optimize/design/scatter/model_step.hpp"
+#include "optimize/design/scatter/scatter_search.hpp"
+#include "optimize/design/scatter/screening.hpp"
 #include "optimize/sampling/distribution.hpp"
 #include "optimize/sampling/sample_design.hpp"
 #include "tests/optimize/design_tasks.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/two_level.hpp"
-#include "optimize/design/draws.hpp"
+#include "optimize/design/scatter/draws.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/listed_scenes.hpp"

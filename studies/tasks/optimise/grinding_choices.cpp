@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimize/design/design_log.hpp"
+#include "optimize/design/search/design_log.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
 

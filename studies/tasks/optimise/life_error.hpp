@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimize/design/output_row.hpp"
+#include "optimize/design/outputs/output_row.hpp"
 #include "studies/analysis/life_result.hpp"
 
 namespace flankwright::studies {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/problem/design_task.hpp"
 #include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {

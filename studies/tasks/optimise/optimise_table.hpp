@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/problem/design_task.hpp"
 #include "optimize/solvers/solver_options.hpp"
 #include "studies/tasks/optimise/assessment_table.hpp"
 #include "studies/tasks/optimise/scatter_table.hpp"

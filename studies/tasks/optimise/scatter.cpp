@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
-#include "optimize/design/design_log.hpp"
-#include "optimize/design/draws.hpp"
+#include "optimize/design/search/design_log.hpp"
+#include "optimize/design/scatter/draws.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/scatter_reading.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"

@@ -8,7 +8,7 @@
 #include "optimize/assessment/predicted_statistic.hpp"
 #include "optimize/assessment/validation.hpp"
 #include "optimize/design/design_optimiser.hpp"
-#include "optimize/design/scatter_search.hpp"
+#include "optimize/design/scatter/scatter_search.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/study/study.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "optimize/design/aggregate.hpp"
+#include "optimize/design/outputs/aggregate.hpp"
 
 /// [optimise.scatter]: a design chosen by a statistic over gears and assemblies that are drawn from the study's tolerances. Read by scatter_reading.hpp.
 namespace flankwright::studies {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "optimize/design/design_log.hpp"
+#include "optimize/design/search/design_log.hpp"
 #include "studies/base/plain_names.hpp"
 
 namespace flankwright::studies {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/fidelity/cycle_quantities.hpp"
-#include "optimize/design/design_output.hpp"
+#include "optimize/design/outputs/design_output.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/report/report.hpp"
 #include "studies/results/expectations.hpp"

@@ -1,0 +1,54 @@
+#include "optimize/design/problem/design_task.hpp"
+
+#include <algorithm>
+
+namespace flankwright {
+
+void ModificationDeviation::add_to(PerGear<Modification>& modification) const {
+  Modification& m = modification[member];
+  const ParameterDescription& row = describe(parameter);
+  if (row.half.empty()) return set(m, parameter, get(m, parameter) + value);
+  for (const std::string_view key : {row.half, row.other_half}) {
+    const ModificationDescriptor& half = *find_parameter(key);
+    half.set(m, half.get(m) + value);
+  }
+}
+
+bool DesignVariable::touches(Member of, ModificationParameter other) const {
+  const ParameterDescription &own = describe(parameter), &row = describe(other);
+  return member == of && (own.key == row.key || own.key == row.half || own.key == row.other_half || own.half == row.key || own.other_half == row.key);
+}
+
+double DesignVariable::outside_factor() const { return flankwright::outside_factor(describe(parameter).kind); }
+
+const char* DesignVariable::unit() const { return unit_of(describe(parameter).kind); }
+
+double ModificationConstraint::value(const PerGear<Modification>& modification) const {
+  double sum = 0.0;
+  for (const Term& term : terms) sum += term.factor * get(modification[term.member], term.parameter);
+  return sum;
+}
+
+double ModificationConstraint::outside_factor() const { return DesignVariable{{}, {}, terms.front().parameter}.outside_factor(); }
+
+const char* ModificationConstraint::unit() const { return DesignVariable{{}, {}, terms.front().parameter}.unit(); }
+
+bool Objective::over_spectrum() const {
+  return std::ranges::any_of(terms, [](const ObjectiveTerm& term) { return design_output(term.output).over_spectrum; });
+}
+
+double Objective::growth() const {
+  double largest = 1.0;
+  for (const ObjectiveTerm& term : terms) largest = std::max(largest, design_output(term.output).growth);
+  return largest;
+}
+
+std::string Objective::name() const {
+  std::string name;
+  for (const ObjectiveTerm& term : terms) name += (name.empty() ? "" : " + ") + term.name;
+  return name;
+}
+
+const char* Objective::unit() const { return terms.size() == 1 ? terms.front().unit() : "weighted sum"; }
+
+}  // namespace flankwright

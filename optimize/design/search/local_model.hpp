@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "optimize/design/problem/design_problem.hpp"
+#include "optimize/design/search/optimality.hpp"
+
+namespace flankwright {
+
+/// A parameter whose influence on a design is assessed, in steps of a size known in a workshop.
+struct AssessedParameter {
+  std::string name;  ///< as the study names it: "pinion.modification.lead_crowning", "misalignment.crossing"
+  double step{1.0};  ///< one step [unit]
+  std::string unit;  ///< "um", "mm", "arcmin", "%"
+  MeshParameter parameter;
+  double inside{1.0};  ///< one step in internal units, added metal with its sign; torque: fraction of each scene's
+  int variable{-1};    ///< index of the design variable it is; -1: a tolerance
+};
+
+/// A variable of the task that moves in steps of this size in its outside unit.
+AssessedParameter parameter_of_variable(const DesignTask& task, int variable, double step);
+
+/// One step of a modification in its outside unit, see assessed_parameters(). @param unit  DesignVariable::unit()
+double assessment_step(const std::string& unit);
+
+/// The task's variables with the modifications linked to them, then deviations of housing and workshop, the same in
+/// every scene: misalignment 1 um, crossing and intersecting 0.1 arcmin, centre distance 0.01 mm, helix and profile
+/// slope of either gear 1 um, torque 1 %. Amounts of a modification step by 1 um, extents by 0.1 mm, parabolic_te by
+/// 0.01 arcsec/deg^2.
+///
+/// An error of helix or profile slope is the negative of that modification; the profile's differs by the same shift on all teeth,
+/// reference for pitch circle, which moves the transmission error's mean only.
+std::vector<AssessedParameter> assessed_parameters(const DesignTask& task);
+
+/// Objective and bounded outputs of one design to first order. Each peak is the largest of its leading candidates,
+/// which have exact derivatives,
+///
+///     measure_s(p) = sum_k w_k max_j (c_skj + g_skj . p)          p in steps of the parameters.
+///
+/// At a kink of a peak one-sided derivatives follow by themselves; off it, a second candidate is seen before it is the
+/// largest. Candidates within `reach` of their peak take part.
+class LocalModel {
+ public:
+  static constexpr double reach = 0.2;  ///< candidate >= (1 - reach) peak
+
+  /// A smooth function: value [outside units; bounded outputs: excess over the bound] and its change by a step of each parameter.
+  struct Candidate {
+    double value{not_given};
+    Eigen::VectorXd slope;
+  };
+  /// The largest of its candidates, first the leading one.
+  struct Peak {
+    std::vector<Candidate> candidates;
+    double at(const Eigen::VectorXd& steps) const;
+  };
+
+  /// @param active  what has a multiplier at this design, for lagrangian_slope()
+  /// @throws std::runtime_error where a scene's load distribution does not converge
+  LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters,
+             const std::vector<ActiveBound>& active = {});
+
+  int scenes() const { return static_cast<int>(measures_.size()); }
+  int parameters() const { return parameters_; }
+  /// Weighted peaks of the objective's terms in a scene.
+  const std::vector<Peak>& measure(int scene) const { return measures_[static_cast<std::size_t>(scene)]; }
+  /// Bounded output c in every scene: OutputConstraint::excess().
+  const std::vector<Peak>& constraint(int c) const { return constraints_[static_cast<std::size_t>(c)]; }
+  int constraints() const { return static_cast<int>(constraints_.size()); }
+
+  std::vector<double> scene_measures(const Eigen::VectorXd& steps) const;
+  /// The scenes' measures, aggregated as in the task, outside units.
+  double objective(const Eigen::VectorXd& steps) const;
+  /// Largest excess of the bounded outputs over their limits [-]; 0 where all are kept.
+  double violation(const Eigen::VectorXd& steps) const;
+  /// Change of the Lagrangian's outputs by a step of each parameter, sum of multiplier * by_output * slope [in Optimality::objective_scale].
+  const Eigen::VectorXd& lagrangian_slope() const { return lagrangian_slope_; }
+
+ private:
+  const DesignTask& task_;
+  int parameters_{0};
+  std::vector<std::vector<Peak>> measures_;     ///< [scene][term]
+  std::vector<std::vector<Peak>> constraints_;  ///< [constraint][scene]
+  Eigen::VectorXd lagrangian_slope_;
+};
+
+}  // namespace flankwright
