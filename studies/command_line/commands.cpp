@@ -110,7 +110,7 @@ int run_command(const RunOptions& options) {
   FinishedRun run = finish_study(study, folder, report);
   progress.finish();
   const int exit_code = write_results(run, folder);
-  discard(std::move(run));
+  keep_until_exit(std::move(run));
   return exit_code;
 }
 

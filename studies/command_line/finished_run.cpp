@@ -1,8 +1,9 @@
 #include "studies/command_line/finished_run.hpp"
 
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
+#include <future>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -29,24 +30,47 @@ FinishedRun finish_study(const Study& study, const std::filesystem::path& folder
   return finished(std::move(results));
 }
 
+namespace {
+
+/// Writes files beside the threads that make their texts: a write ends when the disk has it.
+class FilesOfAFolder {
+ public:
+  explicit FilesOfAFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void add(const std::string& name, std::string text) {
+    const std::lock_guard lock(adding_);
+    written_.push_back(std::async(std::launch::async, [file = folder_ / name, text = std::move(text)] { write_whole(file, text); }));
+  }
+  void add(std::vector<NamedText> tables) {
+    for (NamedText& table : tables) add(table.name, std::move(table.text));
+  }
+  /// @throws InvalidInput of the first that could not be written
+  void wait() {
+    for (std::future<void>& file : written_) file.get();
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::mutex adding_;
+  std::vector<std::future<void>> written_;  // a future waits for its file before it goes
+};
+
+}  // namespace
+
 void write_files(const FinishedRun& run, const std::filesystem::path& folder) {
-  const auto write_tables = [&](const std::vector<NamedText>& tables) {
-    for (const NamedText& table : tables) write_whole(folder / table.name, table.text);
-  };
-  tbb::parallel_invoke([&] { write_whole(folder / "report.html", render_report(run.document)); },
-                       [&] { write_whole(folder / "results.json", json_text(run.document)); },
+  FilesOfAFolder files(folder);
+  tbb::parallel_invoke([&] { files.add("report.html", render_report(run.document)); }, [&] { files.add("results.json", json_text(run.document)); },
                        [&] {
-                         write_tables(csv_tables(run.results));
+                         files.add(csv_tables(run.results));
                          if (const auto write = run.results.study.task->write_files) write(run.results, folder);
                        },
-                       [&] { write_tables(report_tables(run.document)); });
+                       [&] { files.add(report_tables(run.document)); });
+  files.wait();
 }
 
-void discard(FinishedRun run) {
-  const auto loaded = run.document.find("loaded");
-  if (loaded == run.document.end() || !loaded->is_array()) return;
-  auto& cases = loaded->get_ref<Json::array_t&>();
-  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) { cases[i] = nullptr; });
+void keep_until_exit(FinishedRun run) {
+  static auto& kept = *new std::vector<FinishedRun>();  // never destroyed
+  kept.push_back(std::move(run));
 }
 
 }  // namespace flankwright::studies

@@ -31,7 +31,7 @@ FinishedRun finished(StudyResults results);
 /// @throws InvalidInput "output folder" where the folder cannot be written
 void write_files(const FinishedRun& run, const std::filesystem::path& folder);
 
-/// Frees a run on all threads: the values of a large one are millions, and freeing them takes a twentieth of the run on one.
-void discard(FinishedRun run);
+/// Leaves a run to the end of the process: the values of a large one are millions, and freeing them one by one takes a twentieth of the run's time.
+void keep_until_exit(FinishedRun run);
 
 }  // namespace flankwright::studies
