@@ -149,6 +149,12 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
   return errors;
 }
 
+/// Where the largest stress is on a tip edge both are one figure, with one error.
+void join_edge_to_peak(const CycleSummary& summary, CycleErrors& errors) {
+  if (summary.edge_stress != summary.peak_contact_stress) return;
+  errors.edge_stress = errors.peak_contact_stress = std::fmax(errors.edge_stress, errors.peak_contact_stress);
+}
+
 }  // namespace
 
 CycleErrors CycleErrorParts::sum() const {
@@ -164,7 +170,10 @@ std::vector<double> coarse_phases(const std::vector<double>& phases) {
 
 CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse, const CycleExtremes* extremes) {
   if (!fine.usable() || !coarse.usable() || fine.positions.empty() || coarse.positions.empty() || !(fine.force > 0.0)) return {};
-  return {point_errors(fine, coarse, summary), position_errors(fine, summary, extremes)};
+  CycleErrorParts parts{point_errors(fine, coarse, summary), position_errors(fine, summary, extremes)};
+  join_edge_to_peak(summary, parts.points);
+  join_edge_to_peak(summary, parts.positions);
+  return parts;
 }
 
 double mean_error(const std::vector<double>& fine, const std::vector<double>& coarse) {
@@ -184,13 +193,16 @@ CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCyc
   of_finer.te_mean *= of_order_one;
   of_finer.te_peak_to_peak *= of_order_one;
   for (double& harmonic : of_finer.te_harmonics) harmonic *= of_order_one;
-  const auto narrower = [](double by_change, double given) { return std::fmin(given, by_change); };  // the one that is a number
+  const auto better = [](double change, double of_finer, double given) {
+    return std::isgreater(change, given) ? change + of_finer : std::fmin(given, change + of_finer);  // the one that is a number
+  };
   CycleErrors errors;
-  for (const auto of : CycleErrors::single()) errors.*of = narrower(of_finer.*of + std::abs(summary.*of - finer_summary.*of), stated.*of);
+  for (const auto of : CycleErrors::single()) errors.*of = better(std::abs(summary.*of - finer_summary.*of), of_finer.*of, stated.*of);
   for (std::size_t k = 0; k < stated.te_harmonics.size(); ++k) {
-    const double change = std::abs(summary.te_harmonics[k] - finer_summary.te_harmonics[k]);
-    errors.te_harmonics.push_back(narrower(of_finer.te_harmonics[k] + change, stated.te_harmonics[k]));
+    errors.te_harmonics.push_back(
+        better(std::abs(summary.te_harmonics[k] - finer_summary.te_harmonics[k]), of_finer.te_harmonics[k], stated.te_harmonics[k]));
   }
+  join_edge_to_peak(summary, errors);
   return errors;
 }
 

@@ -32,7 +32,7 @@ struct CycleResolving {
 ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, const MeshWithParameters& mesh_at, const FlankCondition& condition,
                             double pinion_torque, const CycleResolving& resolving, const std::vector<MeshParameter>& parameters = {});
 
-/// Narrows the errors by points with a finer cycle, see point_errors_beside_finer().
+/// Takes the errors by points from a finer cycle, see point_errors_beside_finer().
 /// @param model  of `cycle`, at the phases of `finer_model`
 void hold_against_finer(const MeshModel& model, const LoadedCycle& cycle, const MeshModel& finer_model, const LoadedCycle& finer,
                         ResolvedCycle& resolved);

@@ -329,19 +329,21 @@ void widen_edge_errors(const CycleErrors& stated, const CycleSummary& summary, c
 
 void StudyRun::hold_against_finer(std::size_t first) {
   if (!results_.study.fidelity.automatic_intervals) return;
-  std::map<MeshPlacement, std::vector<LoadedResult*>> wide;
+  Quadrature quadrature = results_.study.fidelity.quadrature;
+  quadrature.intervals *= 2;
+  std::map<MeshPlacement, std::vector<LoadedResult*>> held;
   for (std::size_t i = first; i < results_.loaded.size(); ++i) {
     LoadedResult& loaded = results_.loaded[i];
     const CycleErrors& points = loaded.resolved.error_parts.points;
     const double error = headline_error(points, loaded.summary, loaded.cycle);
     // Half the intervals may meet hardly anything of a narrow contact on a tip edge. It counts beside the peak that it may come to exceed.
     const double on_edges = points.edge_stress / loaded.summary.peak_contact_stress;
-    if (std::isgreater(std::fmax(std::fmax(error, on_edges), points.tip_edge_share), AutomaticResolution{}.accuracy))
-      wide[placement_of(loaded.condition, loaded.torque)].push_back(&loaded);
+    const MeshPlacement placement = placement_of(loaded.condition, loaded.torque);
+    const bool is_wide = std::isgreater(std::fmax(std::fmax(error, on_edges), points.tip_edge_share), AutomaticResolution{}.accuracy);
+    // An optimum is where its errors are in its favour: what a search has looked at more finely is held against that.
+    if (is_wide || mesh_of_search(placement, {quadrature, results_.phases})) held[placement].push_back(&loaded);
   }
-  Quadrature quadrature = results_.study.fidelity.quadrature;
-  quadrature.intervals *= 2;
-  const std::vector<std::pair<MeshPlacement, std::vector<LoadedResult*>>> placed(wide.begin(), wide.end());
+  const std::vector<std::pair<MeshPlacement, std::vector<LoadedResult*>>> placed(held.begin(), held.end());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
     std::shared_ptr<const MeshModel> known = mesh_of_search(placed[i].first, {quadrature, results_.phases});
     if (!known) known = std::make_shared<const MeshModel>(mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {}));

@@ -65,7 +65,8 @@ class StudyRun {
   void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles);
 
   /// Solves load cases from index `first` on anew with twice the intervals where half of them cannot say that the accuracy of AutomaticResolution is
-  /// kept, edges included, which no resolution is refined for, and narrows their errors. Where the study gives its intervals it does nothing.
+  /// kept, edges included, which no resolution is refined for, and those that a search has looked at so finely. Their errors by points follow. Where the study gives its
+  /// intervals it does nothing.
   void hold_against_finer(std::size_t first);
 
   /// Adds refined peaks with and without spikes, and the load factors that follow, to the load cases of the results. Where peaks are sampled, as in an

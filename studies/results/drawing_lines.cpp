@@ -195,6 +195,16 @@ void add_opposite_flank(std::vector<std::string>& lines, const GearPair& pair, M
   lines.emplace_back(differs ? "    all others as above" : "    the same amounts");
 }
 
+/// What the tool leaves that is no straight rack; empty for one.
+std::string generated_form(const Generation& generation) {
+  if (const auto* rack = std::get_if<ParabolicRack>(&generation))
+    return rack->coefficient == 0.0 ? "" : fmt::format("the form cut by a parabolic rack, a_c = {:g} 1/mm", rack->coefficient);
+  const auto* tool = std::get_if<RevolutionTool>(&generation);
+  if (tool == nullptr) return "";
+  const std::string arc = std::isfinite(tool->arc_radius) ? fmt::format(", arc of {:g} mm", tool->arc_radius) : "";
+  return fmt::format("the form cut by a surface of revolution, half apex {:g}°, d = {:g} mm{}", in_deg(tool->half_apex), tool->distance, arc);
+}
+
 std::string tolerance_line(const char* symbol, double tolerance, bool either_way) {
   return fmt::format("{} = {}{:g} µm", symbol, either_way ? "± " : "", in_um(rounded_tolerance(tolerance)));
 }
@@ -212,7 +222,9 @@ std::vector<std::string> drawing_lines(const GearPair& pair, Member member, cons
   std::vector<std::string> lines{fmt::format("The {} flank as ground, material removed:", name_of(pair.data.working_flank))};
   const auto amounts = amounts_of(pair, member, modification, t, terms);
   for (const std::vector<std::string>& amount : amounts) lines.insert(lines.end(), amount.begin(), amount.end());
-  if (amounts.empty()) lines.emplace_back("none");
+  const std::string generated = generated_form(gear.data.generation);
+  if (amounts.empty() && generated.empty() && !modification.topography) lines.emplace_back("none");
+  if (!generated.empty()) lines.push_back(generated);
   if (modification.topography) lines.emplace_back("and the topography of its grid");
   lines.push_back(fmt::format("Evaluated from d_Nf = {:.3f} mm to d_Fa = {:.3f} mm:", 2.0 * gear.active_root_radius, 2.0 * gear.tip_form_radius));
   lines.push_back(

@@ -36,6 +36,7 @@ Flank without_parabola(const GearPair& pair, Member m, const FlankCondition& con
 
 Flank parabola_alone(const GearPair& pair, Member m, const FlankCondition& condition) {
   Flank flank = make_flank(pair, m, {}, {});
+  flank.fields.clear();  // of the generation: without_parabola() has it
   flank.modification.parabolic_te = condition.modification[m].parabolic_te;
   return flank;
 }

@@ -23,8 +23,9 @@ double step_in(const DesignScene& scene, const AssessedParameter& p) {
 /// Whether the task asks for a sum over load spectra, whose parts are one step of a parameter each: a per cent of the torque differs between load cases.
 bool sums_over_spectra(const DesignTask& task) {
   const auto over_spectrum = [](const OutputConstraint& bound) { return design_output(bound.output.output).over_spectrum; };
+  const auto is_sum = [](const auto& of) { return of.objective.over_spectrum(); };
   return task.combined_objective().over_spectrum() || std::ranges::any_of(task.constraints, over_spectrum) ||
-         std::ranges::any_of(task.objective_bounds, [](const ObjectiveBound& bound) { return bound.objective.over_spectrum(); });
+         std::ranges::any_of(task.objective_bounds, is_sum) || std::ranges::any_of(task.scalarisation, is_sum);
 }
 
 /// Multiplies the derivatives of a cycle, a column for each parameter.

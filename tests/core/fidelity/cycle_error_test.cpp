@@ -118,6 +118,31 @@ TEST_CASE("A finer cycle that agrees leaves no error by points", "[core][load][c
   CHECK(resolved.errors.peak_contact_stress == resolved.error_parts.positions.peak_contact_stress);
 }
 
+TEST_CASE("An error that is stated smaller than what a finer cycle changes gives way to what the finer one says", "[core][load][cycle-error]") {
+  const GearPair gears = mesh_cases::pair(25, 50, 0, 3, 30);
+  const FlankCondition condition = mesh_cases::worked_condition();
+  const double torque = mesh_cases::torque_for(gears, 100);
+  const auto mesh = [&](int intervals) { return mesh_cases::model(gears, {{QuadratureRule::Graded, intervals}, equally_spaced_phases(16)}); };
+  const MeshModel model = mesh(6), finer_model = mesh(12);
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque), finer = analyse_cycle(finer_model, condition, torque);
+  const CycleSummary summary = summarise(model, cycle), of_finer = summarise(finer_model, finer);
+  CycleErrors none, wide;
+  for (const auto of : CycleErrors::single()) {
+    none.*of = 0.0;
+    wide.*of = INFINITY;
+  }
+  const CycleErrors instead_of_none = point_errors_beside_finer(none, cycle, summary, finer, of_finer);
+  const CycleErrors instead_of_wide = point_errors_beside_finer(wide, cycle, summary, finer, of_finer);
+  REQUIRE(summary.peak_contact_stress != of_finer.peak_contact_stress);
+  for (const auto of : CycleErrors::single()) {
+    const double change = std::abs(summary.*of - of_finer.*of);
+    CAPTURE(change, instead_of_none.*of, instead_of_wide.*of);
+    if (!(change > 0.0)) continue;  // of a figure that this pair has, and that points along the lines matter to
+    CHECK(instead_of_none.*of >= change);
+    CHECK(instead_of_none.*of == instead_of_wide.*of);
+  }
+}
+
 TEST_CASE("Errors are those of points and of positions together, and not known without a coarser cycle", "[core][load][cycle-error]") {
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   const Judged judged = judge(gears, mesh_cases::worked_condition(), mesh_cases::torque_for(gears, 100), 6, 16);
