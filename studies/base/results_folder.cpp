@@ -82,4 +82,12 @@ std::string read_results(const std::filesystem::path& folder) {
   return read_whole(file);
 }
 
+Json whole_results(const std::filesystem::path& folder) {
+  Json results = Json::parse(read_results(folder), nullptr, false);
+  const auto has = [&](const char* key) { return results.contains(key); };
+  const bool is_whole = results.is_object() && has("given") && has("used") && has("version") && (!has("loaded") || results.at("loaded").is_array());
+  if (!is_whole) throw InvalidInput((folder / "results.json").string(), damaged_results, results_of_a_run);
+  return results;
+}
+
 }  // namespace flankwright::studies

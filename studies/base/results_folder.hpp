@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "studies/base/json_format.hpp"
+
 namespace flankwright::studies {
 
 /// A file of the results folder: its name and its whole content.
@@ -26,5 +28,8 @@ inline constexpr const char* results_of_a_run = "results.json as `flankwright ru
 
 /// results.json of a results folder. Throws InvalidInput where the folder has none.
 std::string read_results(const std::filesystem::path& folder);
+
+/// The same as a document. Throws InvalidInput where it is damaged or not of a run.
+Json whole_results(const std::filesystem::path& folder);
 
 }  // namespace flankwright::studies

@@ -140,11 +140,7 @@ int new_command(const std::string& kind) {
 
 int report_command(const std::string& folder) {
   const fs::path page = fs::path(folder) / "report.html";
-  const Json results = Json::parse(read_results(folder), nullptr, false);
-  const auto has = [&](const char* key) { return results.contains(key); };
-  const bool is_whole = results.is_object() && has("given") && has("used") && has("version") && (!has("loaded") || results.at("loaded").is_array());
-  if (!is_whole) throw InvalidInput("results.json", damaged_results, results_of_a_run);
-  write_whole(page, render_report(results));
+  write_whole(page, render_report(whole_results(folder)));
   print(fmt::format("report: {}\n", page.string()));
   return 0;
 }

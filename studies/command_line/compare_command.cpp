@@ -30,14 +30,7 @@ std::vector<std::string> names_of(const std::vector<std::string>& folders) {
 std::vector<ComparedRun> read_runs(const std::vector<std::string>& folders) {
   const std::vector<std::string> names = names_of(folders);
   std::vector<ComparedRun> runs(folders.size());
-  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) {
-    const std::string text = read_results(folders[i]);
-    try {
-      runs[i] = {names[i], Json::parse(text)};
-    } catch (const Json::exception&) {
-      throw InvalidInput((fs::path(folders[i]) / "results.json").string(), damaged_results, results_of_a_run);
-    }
-  });
+  tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t i) { runs[i] = {names[i], whole_results(folders[i])}; });
   return runs;
 }
 

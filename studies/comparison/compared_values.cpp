@@ -103,10 +103,12 @@ void add_design(const Json& results, std::size_t run, Rows& rows) {
       if (value.is_number()) row.values[run] = value;
     }
     if (const Json& objective = member(of, "objective"); objective.is_number()) {
-      ComparedValue& row = rows.row(section, "objective");
+      const Json& name = member(optimise, "objective_name");
+      const std::string what = name.is_string() ? name.get<std::string>() : std::string();
+      ComparedValue& row = rows.row(section, what.empty() ? "objective" : "objective " + what);  // runs may have different ones
       row.values[run] = objective;
       row.headline = true;
-      if (const Json& name = member(optimise, "objective_name"); name.is_string()) row.words = plain_name(name.get<std::string>());
+      row.words = plain_name(what);
       if (const Json& unit = member(optimise, "objective_unit"); unit.is_string() && !unit.get<std::string>().empty()) row.unit = unit;
     }
     for (const auto& [key, bound] : member(of, "constraints").items()) {
@@ -187,21 +189,27 @@ void add_sweep(const Json& results, std::size_t run, Rows& rows) {
   }
 }
 
-/// An entry of a list is as large as the largest of the list: of harmonics the small ones are differences of large numbers.
+/// Changes count from the first run, or from the largest value where it has none but 0. An entry of a list is as large as the largest of the list: of
+/// harmonics the small ones are differences of large numbers.
 void set_scales(std::vector<ComparedValue>& rows) {
   const auto list_of = [](const ComparedValue& row) {
     const std::size_t dot = row.name.rfind('.');
     const bool is_entry = dot != std::string::npos && row.name.find_first_not_of("0123456789", dot + 1) == std::string::npos;
     return row.section + "\n" + (is_entry ? row.name.substr(0, dot) : row.name);
   };
-  std::map<std::string, double> largest;
+  std::map<std::string, double> first, largest;
   for (const ComparedValue& row : rows) {
-    double& scale = largest.try_emplace(list_of(row), 0.0).first->second;
-    for (const double value : row.values) {
+    const auto raise = [key = list_of(row)](std::map<std::string, double>& scales, double value) {
+      double& scale = scales.try_emplace(key, 0.0).first->second;
       if (std::isfinite(value)) scale = std::max(scale, std::abs(value));
-    }
+    };
+    raise(first, row.values.front());
+    for (const double value : row.values) raise(largest, value);
   }
-  for (ComparedValue& row : rows) row.scale = largest.at(list_of(row));
+  for (ComparedValue& row : rows) {
+    const std::string key = list_of(row);
+    row.scale = first.at(key) > 0.0 ? first.at(key) : largest.at(key);
+  }
 }
 
 /// A text as the file would have it: of its two forms of quotes one.

@@ -23,7 +23,7 @@ struct ComparedValue {
   bool headline{false};        ///< belongs to the short table
   std::vector<double> values;  ///< one a run; NaN where it has none
 
-  /// What differences are relative to: the largest of its values, of an entry of a list the largest of the list.
+  /// What differences are relative to: the first run's value, of an entry of a list the first run's largest of the list; where that is 0, the largest of all runs.
   double scale{not_given};
 
   /// Of a run from the first one, as a share of `scale`; NaN where either has no value, 0 where both have none.

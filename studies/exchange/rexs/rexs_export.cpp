@@ -319,7 +319,23 @@ class Export {
     if (before("1.3")) result_.notes.push_back("modifications are part of the format since 1.3; older readers pass over them");
     const bool has_allowance = pair_.pinion.data.tooth_thickness_allowance != 0.0 || pair_.wheel.data.tooth_thickness_allowance != 0.0;
     if (before("1.3") && has_allowance) result_.notes.push_back("tooth thickness allowances are part of the format since 1.3: left out");
-    result_.notes.push_back("misalignment, shafts and errors of teeth are not exported");
+    result_.notes.push_back("misalignment, shafts, speed and errors of teeth are not exported");
+    for (const Member m : both_gears) note_edges(m);
+  }
+
+  /// The format has amounts of chamfers alone. An import takes the usual edge for the rest.
+  void note_edges(Member m) {
+    const GearData& gear = pair_[m].data;
+    const double usual = usual_edge_radius(pair_[m], pair_.data.normal_module);
+    const auto is_usual = [&](double radius) { return std::abs(radius - usual) < 1e-9 * pair_.data.normal_module; };  // round-off
+    const auto note = [&](const std::string& what) {
+      result_.notes.push_back(fmt::format("{}: {}, which the format has no attribute for, is not exported", name_of(m), what));
+    };
+    if (gear.end_chamfer.amount == 0.0 && !is_usual(gear.end_rounding)) note(fmt::format("an end rounding of {:g} mm", gear.end_rounding));
+    for (const auto& [chamfer, name] : {std::pair{&gear.tip_chamfer, "tip"}, std::pair{&gear.end_chamfer, "end"}}) {
+      if (chamfer->amount > 0.0 && chamfer->angle != EdgeChamfer{}.angle)
+        note(fmt::format("the angle of the {} chamfer, {:g} deg", name, chamfer->angle / units::deg));
+    }
   }
 
   const Study& study_;

@@ -118,7 +118,7 @@ TEST_CASE("A finer cycle that agrees leaves no error by points", "[core][load][c
   CHECK(resolved.errors.peak_contact_stress == resolved.error_parts.positions.peak_contact_stress);
 }
 
-TEST_CASE("An error that is stated smaller than what a finer cycle changes gives way to what the finer one says", "[core][load][cycle-error]") {
+TEST_CASE("An error that is stated smaller than what a finer cycle changes is replaced by what the finer one says", "[core][load][cycle-error]") {
   const GearPair gears = mesh_cases::pair(25, 50, 0, 3, 30);
   const FlankCondition condition = mesh_cases::worked_condition();
   const double torque = mesh_cases::torque_for(gears, 100);
