@@ -65,6 +65,19 @@ TEST_CASE("Touches by both flanks' parabola are those of the whole flanks, on fl
   CHECK(worst_on_edges <= 0.03 * largest);   // model: the lever of the wheel's lag, see SurfaceGap
 }
 
+TEST_CASE("A parabola of the transmission error leaves what the tool generates as it is", "[core][contact][limit]") {
+  PairData data = pair_data(21, 44, 18 * deg);
+  const bool of_wheel = GENERATE(false, true);
+  (of_wheel ? data.wheel : data.pinion).generation = ParabolicRack{0.0005};
+  const GearPair pair = make_gear_pair(data);
+  const std::vector<ContactPoint> points = along_lines(pair, 60);
+  FlankCondition with_trace;
+  with_trace.modification[GENERATE(Member::Pinion, Member::Wheel)].parabolic_te = 1e-12;  // 1/rad: nothing
+  const Gap generated = plane_of_action_gap(pair, points, {}), traced = plane_of_action_gap(pair, points, with_trace);
+  CHECK(generated.total.maxCoeff() > 1 * um);                             // there is something that could count twice
+  CHECK((traced.total - generated.total).cwiseAbs().maxCoeff() <= 1e-9);  // mm: round-off, and the trace
+}
+
 TEST_CASE("The gap has no step along a line, neither where a relief starts nor at either end of the path of contact", "[core][contact]") {
   const double rounding = GENERATE(0.0, 0.2);
   const GearPair pair = rounded_pair(rounding);

@@ -82,6 +82,19 @@ TEST_CASE("A drawing has the amounts that were set, and the shape of a relief", 
   CHECK(line_with("tip relief =").ends_with("tip relief = 7.25 µm, parabolic"));
 }
 
+TEST_CASE("A drawing of a generated flank names the tool instead of no removal", "[studies][drawing]") {
+  const auto lines_of = [](const std::string& generation) {
+    std::string all;
+    const Study study = study_texts::read(generation);
+    for (const std::string& line : make_drawing(make_gear_pair(study.pair), Member::Pinion, {}, {.tolerance_class = 6}).lines) all += line + "\n";
+    return all;
+  };
+  CHECK_THAT(lines_of(""), Catch::Contains("\nnone\n"));
+  const std::string generated = lines_of("[pinion.generation]\nkind = \"parabolic_rack\"\ncoefficient = 0.0005\n");
+  CHECK_THAT(generated, Catch::Contains("parabolic rack, a_c = 0.0005 1/mm"));
+  CHECK(generated.find("none") == std::string::npos);
+}
+
 /// A helical pair, 25:61, of 45 mm of face.
 GearPair helical() {
   PairData data;

@@ -159,6 +159,22 @@ tip_relief = { amount = 0, height = 1.5 }
   CHECK(summary.find(" 1 (") == std::string::npos);  // of "2.94 1 (25.6 times the optimum)"
 }
 
+TEST_CASE("A limit of damage that no design keeps is shown with its excess, as any other limit", "[studies][assessment][life]") {
+  const StudyResults results = run_study(parse_study("task = \"optimise\"\n" + life_pair + life_strength + life_load + R"(
+[optimise]
+objective = "te_peak_to_peak"
+[optimise.variables]
+"pinion.modification.lead_crowning" = [0, 20]
+[optimise.constraints]
+contact_damage = { max = 1e-12 }
+)",
+                                                     "small.toml"));
+  REQUIRE(optimised(results).design.status == SolverStatus::Infeasible);
+  REQUIRE(optimised(results).assessment.relaxation);
+  CHECK(optimised(results).assessment.relaxation->excess > 0.0);
+  CHECK_FALSE(optimised(results).assessment.relaxation->limits.empty());
+}
+
 TEST_CASE("A search goes on at more positions where a peak between them says that there is more to gain",
           "[studies][assessment][between-positions]") {
   const std::string text = R"(
