@@ -147,6 +147,12 @@ int library_command(const std::string& path) {
   std::vector<CorrectionEntry> entries = entries_so_far(path, list);
   Progress progress;
   const auto show = [&] { progress.show("library of fits", static_cast<int>(entries.size()), static_cast<int>(list.size()), {}); };
+  const auto write = [&] {
+    std::string text = settings_text();
+    for (const CorrectionEntry& entry : entries) text += to_text(entry);
+    write_whole(path, text);
+  };
+  write();  // a place that cannot be written is refused before anything is solved
   show();
   const auto abreast = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   while (entries.size() < list.size()) {
@@ -168,9 +174,7 @@ int library_command(const std::string& path) {
       if (entry.coefficients.empty()) throw std::runtime_error("a fit of the library has failed");
       entries.push_back(std::move(entry));
     }
-    std::string text = settings_text();
-    for (const CorrectionEntry& entry : entries) text += to_text(entry);
-    write_whole(path, text);
+    write();
     show();
   }
   const auto missed = std::ranges::count_if(entries, [](const CorrectionEntry& entry) { return entry.status != FitStatus::Converged; });

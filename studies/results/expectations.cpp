@@ -72,13 +72,23 @@ std::string for_every_entry(const std::string& path) {
   return without;
 }
 
+/// Whether a dotted path leads to something below a node, in some entry of its lists.
+bool leads_somewhere(const Json& node, const std::string& path) {
+  if (path.empty()) return true;
+  if (node.is_array()) return std::ranges::any_of(node, [&](const Json& entry) { return leads_somewhere(entry, path); });
+  const std::size_t dot = path.find('.');
+  const auto found = node.is_object() ? node.find(path.substr(0, dot)) : node.end();
+  return node.is_object() && found != node.end() && leads_somewhere(*found, dot == std::string::npos ? "" : path.substr(dot + 1));
+}
+
 /// What was meant by a name that the object at `path` does not have; `rest` followed it.
 std::string hint_at(const Json& results, const Json& object, const std::string& path, const std::string& step, const std::string& rest) {
   const std::string above = path.empty() ? "" : for_every_entry(path) + ".", behind = rest.empty() ? "" : "." + rest;
   if (const std::string entry = entry_of_list(object, step); !entry.empty()) return above + entry + behind;
   std::vector<std::string> siblings;
   for (const auto& [key, value] : object.items()) siblings.push_back(key);
-  if (const std::string near = nearest_word(step, siblings); !near.empty()) return above + near + behind;
+  const std::string near = nearest_word(step, siblings);
+  if (!near.empty() && leads_somewhere(object, near + behind)) return above + near + behind;
   const std::string name = rest.empty() ? step : rest.substr(rest.rfind('.') + 1);
   std::set<std::string> elsewhere;
   find_name(results, "", name, elsewhere);
@@ -94,6 +104,10 @@ void follow(const Json& results, const Json* node, const std::string& path, cons
     const std::string text = node->is_string() ? node->get<std::string>() : node->dump();
     found.push_back({path, in_words(e), not_given, text, !e.is.empty() && text == e.is, {}});
     return;
+  }
+  if (node && rest.empty() && node->is_array()) {
+    for (std::size_t i = 0; i < node->size(); ++i) follow(results, &(*node)[i], path + "[" + std::to_string(i) + "]", rest, e, found);
+    if (!node->empty()) return;
   }
   if (!node || (rest.empty() && !node->is_number())) {
     found.push_back({path + (rest.empty() ? "" : "." + rest), in_words(e), not_given, {}, false, {}});

@@ -84,9 +84,11 @@ Json fidelity_choice_json(const FidelityChoice& choice) {
 
 std::string fidelity_choice_summary(const FidelityChoice& choice) {
   const Json quadrature = quadrature_json(choice.fidelity.quadrature);
-  return fmt::format("accuracy {:.3g} %: {}, {}, {} {} intervals, {} positions; estimated {:.2g} %, chosen in {:.2g} s\n\n",
+  std::string without;
+  for (const std::string& name : choice.left_out.names) without += (without.empty() ? ", without " : ", ") + name;
+  return fmt::format("accuracy {:.3g} %: {}, {}, {} {} intervals, {} positions{}; estimated {:.2g} %, chosen in {:.2g} s\n\n",
                      percent * choice.accuracy, to_string(choice.fidelity.compliance), to_string(choice.fidelity.gap),
-                     quadrature.at("rule").get<std::string>(), choice.fidelity.quadrature.intervals, choice.positions,
+                     quadrature.at("rule").get<std::string>(), choice.fidelity.quadrature.intervals, choice.positions, without,
                      percent * headline(choice.error()), choice.choosing_seconds);
 }
 

@@ -302,14 +302,15 @@ Json modifications_json(const StudyResults& results) {
 }
 
 Json units_json() {
-  return {{"length", "mm"},
-          {"modification", "um"},
-          {"deflection", "um"},
-          {"te_um", "along the flank normal, positive: the wheel lags"},
-          {"te_arcsec", "phi2 - (N1/N2) phi1 at the wheel, negative where material is removed"},
-          {"load", "N per mm of contact line"},
-          {"stress", "MPa"},
-          {"stiffness", "N/(mm um), transverse"}};
+  return {
+      {"length", "mm"},
+      {"modification", "um"},
+      {"deflection", "um"},
+      {"te_um", "loaded: along the flank normal, positive: the wheel lags; unloaded: along the transverse base tangent, r_b2 (phi2 - (N1/N2) phi1)"},
+      {"te_arcsec", "phi2 - (N1/N2) phi1 at the wheel, negative where material is removed"},
+      {"load", "N per mm of contact line"},
+      {"stress", "MPa"},
+      {"stiffness", "N/(mm um), transverse"}};
 }
 
 }  // namespace

@@ -87,7 +87,8 @@ std::string unloaded_summary(const StudyResults& results, std::size_t width) {
   const int teeth = results.pair.data.pinion.teeth;
   for (const UnloadedResult& u : results.unloaded) {
     const double first = u.mesh.harmonics.empty() ? not_given : u.mesh.harmonics.front();
-    out += fmt::format("{:<{}}  {:>10.5g}  {:>10.5g}  {:>10}  {:>11.4g}  {}\n", u.scene, width, in_arcsec(u.mesh.peak_to_peak), in_arcsec(first),
+    const std::string in_table = std::isnan(first) ? "-" : fmt::format("{:.5g}", in_arcsec(first));  // too few positions for a harmonic
+    out += fmt::format("{:<{}}  {:>10.5g}  {:>10}  {:>10}  {:>11.4g}  {}\n", u.scene, width, in_arcsec(u.mesh.peak_to_peak), in_table,
                        u.mesh.transfers.size(), in_arcsec_per_deg(largest_jump(u.mesh)), whole_sequence(u, teeth, false));
     out += fmt::format("{:<{}}  carrying: {}\n", "", width, whole_sequence(u, teeth, true));
     if (u.parabola) out += fmt::format("{:<{}}  parabola {}\n", "", width, parabola_line(*u.parabola));

@@ -76,6 +76,19 @@ void check_edge_outputs(StudyReading& reading) {
   }
 }
 
+/// A harmonic needs evenly spaced positions, more than two to a period.
+void check_harmonics(StudyReading& reading) {
+  const Cycle& cycle = reading.builder.study.cycle;
+  const bool is_even = cycle.phases.empty() || cycle.phases == equally_spaced_phases(static_cast<int>(cycle.phases.size()));
+  for (const auto& [key, term] : all_terms(reading.builder.study.table<OptimiseTable>())) {
+    if (term.output != Output::TeHarmonic) continue;
+    if (!is_even) return reading.refuse_key("cycle.phases", "allowed is cycle.positions instead for " + term.name);
+    const int least = 2 * term.harmonic + 1;
+    if (cycle.phases.empty() && cycle.positions < least)
+      return reading.refuse_key("cycle.positions", fmt::format("allowed is at least {} for {}", least, term.name));
+  }
+}
+
 /// Whether the speed of the study or something of its spectrum is given, but refused already.
 bool has_refused_load(const StudyReading& reading) {
   return std::ranges::any_of(reading.problems,
@@ -187,6 +200,7 @@ void check_optimise(StudyReading& reading) {
   }
   check_life_outputs(reading);
   check_edge_outputs(reading);
+  check_harmonics(reading);
   for (const Scene& scene : study.scenes) {
     if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;
     return reading.refuse_key("load.torque", "task \"optimise\" needs a torque above 0 in every scene: " + scene.name);

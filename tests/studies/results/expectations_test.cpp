@@ -58,6 +58,7 @@ TEST_CASE("A key that leads nowhere gets the name of one that does", "[studies][
   CHECK(hint("loaded.te_mean_um") == "loaded.summary.te_mean_um");
   CHECK(hint("loaded.summary.te_mean_um").empty());
   CHECK(hint("loaded.summary.quite_another").empty());
+  CHECK(hint("unloaded.mesh.peak_to_peak_arcsec").empty());  // "loaded", which is spelt almost alike, has no mesh
   CHECK_THAT(differences(compare({range("loaded.summary.te_harmonic_2_um", 0.0, 1.0)}, results)),
              Catch::Contains("found nothing; did you mean loaded.summary.te_harmonics_um.1?"));
 }
@@ -79,7 +80,11 @@ TEST_CASE("Without an index every entry of a list must meet it, with one that en
   CHECK_FALSE(all[2].met);  // the key is missing there
   CHECK(met(value("loaded.1.summary.te", 2.0)));
   CHECK(met(value("a.list.2", 3.0)));
-  CHECK_FALSE(met(range("a.list", 0.0, 9.0)));  // the list itself is no number
+  const std::vector<Comparison> entries = compare({range("a.list", 0.0, 2.5)}, expected_results);  // of a list of numbers likewise
+  REQUIRE(entries.size() == 3);
+  CHECK(entries[1].key == "a.list[1]");
+  CHECK(entries[1].met);
+  CHECK_FALSE(entries[2].met);
 }
 
 TEST_CASE("A value that is missing, null or no number does not meet an expectation", "[studies][expect]") {
