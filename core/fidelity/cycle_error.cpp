@@ -193,8 +193,8 @@ CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCyc
   of_finer.te_mean *= of_order_one;
   of_finer.te_peak_to_peak *= of_order_one;
   for (double& harmonic : of_finer.te_harmonics) harmonic *= of_order_one;
-  const auto better = [](double change, double of_finer, double given) {
-    return std::isgreater(change, given) ? change + of_finer : std::fmin(given, change + of_finer);  // the one that is a number
+  const auto better = [](double change, double beyond, double given) {
+    return std::isgreater(change, given) ? change + beyond : std::fmin(given, change + beyond);  // the one that is a number
   };
   CycleErrors errors;
   for (const auto of : CycleErrors::single()) errors.*of = better(std::abs(summary.*of - finer_summary.*of), of_finer.*of, stated.*of);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/gear/both_gears.hpp"
 #include "core/fidelity/cycle_error.hpp"
 #include "core/rating/contact_temperature.hpp"
 #include "core/rating/film_thickness.hpp"
@@ -12,8 +13,6 @@
 namespace flankwright::studies {
 
 namespace {
-
-constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 
 /// The oil of a load case, as far as it is known.
 struct Oil {

@@ -7,14 +7,13 @@
 #include <cmath>
 #include <string>
 
+#include "core/gear/both_gears.hpp"
 #include "core/rating/sliding_loss.hpp"
 #include "studies/study_file/study_life.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 
 /// How far the largest contact stress of the mesh positions, which damage is made of, may be below that of the whole cycle and its error [-].
 double contact_stress_error(const LoadedResult& loaded) {

@@ -3,11 +3,11 @@
 #include <array>
 #include <cmath>
 
+#include "core/gear/both_gears.hpp"
+
 namespace flankwright::studies {
 
 namespace {
-
-constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 
 Json sn_curve_json(const std::optional<SnCurve>& curve) {
   if (!curve) return nullptr;

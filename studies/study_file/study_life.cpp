@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/gear/both_gears.hpp"
 #include "studies/study_file/spectrum_file.hpp"
 #include "studies/study_file/study_signal.hpp"
 
@@ -18,7 +19,6 @@ namespace {
 /// Problems after which no further load is looked at: long files tend to have the same one in every row.
 constexpr std::size_t most_said = 50;
 
-constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 constexpr double notch_of_test_gear = 2.0;  // Y_ST [ISO 6336-3]: sigma_FE = sigma_Flim Y_ST
 
 /// A cell as a value of a study file: a number where it is nothing else.

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/gear/both_gears.hpp"
 #include "core/base/error.hpp"
 #include "core/rating/contact_temperature.hpp"
 #include "core/rating/film_thickness.hpp"
@@ -11,8 +12,6 @@
 namespace flankwright {
 
 namespace {
-
-constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 
 Member member_of(const PeakCandidate& candidate) { return both_gears[static_cast<std::size_t>(candidate.other % 2)]; }
 int number(Eigen::Index point, Member member) { return 2 * static_cast<int>(point) + (member == Member::Pinion ? 0 : 1); }

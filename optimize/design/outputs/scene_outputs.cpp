@@ -12,7 +12,7 @@ namespace flankwright {
 
 namespace {
 
-const LoadedPosition& at(const LoadedCycle& cycle, int position) { return cycle.positions[static_cast<std::size_t>(position)]; }
+const LoadedPosition& position_at(const LoadedCycle& cycle, int position) { return cycle.positions[static_cast<std::size_t>(position)]; }
 
 bool has_derivatives(const LoadedCycle& cycle) { return cycle.positions.front().transmission_error_derivative.size() > 0; }
 
@@ -139,14 +139,14 @@ SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& cand
   const DesignOutput& row = design_output(term.output);
   if (row.candidate != nullptr) return row.candidate(term, candidate, scene);
   if (row.smooth != nullptr) return row.smooth(term, model, cycle, candidate.other);
-  const LoadedPosition& position = at(cycle, candidate.position);
+  const LoadedPosition& position = position_at(cycle, candidate.position);
   SmoothValue result;
   if (row.at_points != nullptr) {
     result.value = row.at_points(term, model, cycle, candidate.position)[candidate.other];
     if (has_derivatives(cycle)) result.gradient = row.point_derivative(term, candidate, model, cycle).transpose();
     return result;
   }
-  const LoadedPosition& other = at(cycle, candidate.other);
+  const LoadedPosition& other = position_at(cycle, candidate.other);
   result.value = position.load.transmission_error - other.load.transmission_error;
   if (has_derivatives(cycle)) {
     result.gradient = (position.transmission_error_derivative - other.transmission_error_derivative).transpose();

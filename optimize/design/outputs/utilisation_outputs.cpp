@@ -4,13 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/gear/both_gears.hpp"
 #include "core/base/error.hpp"
 
 namespace flankwright {
 
 namespace {
-
-constexpr std::array both_gears{Member::Pinion, Member::Wheel};
 
 const LoadedPosition& at(const LoadedScene& scene, int position) { return scene.cycle.positions[static_cast<std::size_t>(position)]; }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/flank/flank.hpp"
+#include "core/gear/both_gears.hpp"
 #include "core/flank/natural_twist.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "studies/exchange/rexs/study_text.hpp"
@@ -326,7 +327,7 @@ class Export {
   /// The format has amounts of chamfers alone. An import takes the usual edge for the rest.
   void note_edges(Member m) {
     const GearData& gear = pair_[m].data;
-    const double usual = usual_edge_radius(pair_[m], pair_.data.normal_module);
+    const double usual = usual_edge_radius(m, pair_.data);
     const auto is_usual = [&](double radius) { return std::abs(radius - usual) < 1e-9 * pair_.data.normal_module; };  // round-off
     const auto note = [&](const std::string& what) {
       result_.notes.push_back(fmt::format("{}: {}, which the format has no attribute for, is not exported", name_of(m), what));
