@@ -331,7 +331,11 @@ void StudyRun::hold_against_finer(std::size_t first) {
   if (!results_.study.fidelity.automatic_intervals) return;
   Quadrature quadrature = results_.study.fidelity.quadrature;
   quadrature.intervals *= 2;
-  std::map<MeshPlacement, std::vector<LoadedResult*>> held;
+  struct Held {
+    LoadedResult* loaded;
+    bool is_wide;
+  };
+  std::map<MeshPlacement, std::vector<Held>> held;
   for (std::size_t i = first; i < results_.loaded.size(); ++i) {
     LoadedResult& loaded = results_.loaded[i];
     const CycleErrors& points = loaded.resolved.error_parts.points;
@@ -341,19 +345,20 @@ void StudyRun::hold_against_finer(std::size_t first) {
     const MeshPlacement placement = placement_of(loaded.condition, loaded.torque);
     const bool is_wide = std::isgreater(std::fmax(std::fmax(error, on_edges), points.tip_edge_share), AutomaticResolution{}.accuracy);
     // An optimum is where its errors are in its favour: what a search has looked at more finely is held against that.
-    if (is_wide || mesh_of_search(placement, {quadrature, results_.phases})) held[placement].push_back(&loaded);
+    const bool is_known = loaded.design == "after" && mesh_of_search(placement, {quadrature, results_.phases});
+    if (is_wide || is_known) held[placement].push_back({&loaded, is_wide});
   }
-  const std::vector<std::pair<MeshPlacement, std::vector<LoadedResult*>>> placed(held.begin(), held.end());
+  const std::vector<std::pair<MeshPlacement, std::vector<Held>>> placed(held.begin(), held.end());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
     std::shared_ptr<const MeshModel> known = mesh_of_search(placed[i].first, {quadrature, results_.phases});
     if (!known) known = std::make_shared<const MeshModel>(mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {}));
     const MeshModel& finer = *known;
-    for (LoadedResult* loaded : placed[i].second) {
+    for (const auto& [loaded, is_wide] : placed[i].second) {
       const LoadedCycle cycle = analyse_halves(finer, loaded->condition, loaded->torque);
       const CycleErrors stated = loaded->resolved.error_parts.points;
       flankwright::hold_against_finer(results_.models[loaded->model], loaded->cycle, finer, cycle, loaded->resolved);
       const std::vector<double>& phases = loaded->resolved.extremes.phases;
-      if (!phases.empty() && stated.edge_stress > 0.0) {
+      if (is_wide && !phases.empty() && stated.edge_stress > 0.0) {
         const MeshModel between = mesh(placed[i].first, {quadrature, phases}, nullptr, results_.shafts.get(), {});
         const LoadedCycle at_extremes = analyse_cycle(between, loaded->condition, loaded->torque, {}, {}, RootStresses::Later);
         widen_edge_errors(stated, loaded->summary, cycle, at_extremes, loaded->resolved);
