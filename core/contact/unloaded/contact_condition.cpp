@@ -44,20 +44,6 @@ double ContactCondition::undisturbed_curvature(double rho1) const {
   return rho1 * (1.0 + rho1 / rho2) * pinion_.per_base_radius * pinion_.per_base_radius * wheel_.per_base_radius;
 }
 
-ContactCondition::TipEdge ContactCondition::pinion_tip(double z) const {
-  // Newton on rho - D(rho, z) = sqrt(r_a^2 - r_b^2) from D = 0 on: D is some micrometres, so that the second step leaves round-off.
-  const double end = assembly_.pinion.highest_roll();
-  TipEdge edge{end, 0.0};
-  for (int i = 0; i < 3; ++i) {
-    const Dual<2> removed = pinion_.at(edge.rho, z);
-    const double step = edge.rho - removed.value - end, pace = 1.0 / (1.0 - removed.gradient[0]);
-    edge.slope = removed.gradient[1] * pace;
-    if (step == 0.0) break;
-    edge.rho -= step * pace;
-  }
-  return edge;
-}
-
 void ContactCondition::locate_point(FlankContact& m) const {
   const Flank& pinion = assembly_.pinion;
   const double rb = pinion.base_radius, turn = pinion.helix_rate;

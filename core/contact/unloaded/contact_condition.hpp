@@ -56,13 +56,6 @@ class ContactCondition {
   double highest_undisturbed_roll() const { return std::min(assembly_.pinion.highest_roll(), path_length_ - assembly_.wheel.lowest_roll()); }
   double roll_rate() const { return assembly_.pinion.base_radius * assembly_.pinion.helix_rate; }  ///< its derivative [mm/mm]
 
-  /// The pinion's tip edge in the section z: the flank ends at the tip cylinder, whatever has been removed from it.
-  struct TipEdge {
-    double rho;    ///< roll length of the point of the flank [mm]
-    double slope;  ///< its derivative by z [mm/mm]
-  };
-  TipEdge pinion_tip(double z) const;
-
   /// Curvature -d2(phi2)/d(rho1)2 where undisturbed involutes touch at roll length rho1 of the pinion [rad/mm^2]:
   ///
   ///     (1/rho1 + 1/rho2)(rho1/r_b1)^2 / r_b2,     rho1 + rho2 the distance between the base circles' tangent points

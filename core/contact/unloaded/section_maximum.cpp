@@ -63,7 +63,7 @@ double SectionSearch::radius_of(SectionBound bound) const {
 
 SectionMaximum SectionSearch::only_maximum(double z, const SectionMaximum& neighbour, const Tolerance& tolerance) const {
   const Flank& pinion = condition_.assembly().pinion;
-  const Range range{pinion.lowest_roll(), condition_.pinion_tip(z).rho};
+  const Range range{pinion.lowest_roll(), pinion.highest_roll()};
   double guess = condition_.undisturbed_roll(z);
   if (neighbour.exists && neighbour.bound == SectionBound::None) {
     guess += neighbour.at.rho - condition_.undisturbed_roll(neighbour.z);
@@ -85,7 +85,7 @@ SectionMaximum SectionSearch::only_maximum(double z, const SectionMaximum& neigh
 
 SectionMaximum SectionSearch::highest_maximum(double z, const Tolerance& tolerance) const {
   const Flank& pinion = condition_.assembly().pinion;
-  const double lowest = pinion.lowest_roll(), highest = condition_.pinion_tip(z).rho;
+  const double lowest = pinion.lowest_roll(), highest = pinion.highest_roll();
   std::vector<Sample> samples;
   for (int i = 0; i <= cells_; ++i) {
     const double rho = i == cells_ ? highest : lowest + i * (highest - lowest) / cells_;
@@ -162,8 +162,7 @@ SectionMaximum SectionSearch::finish(double z, const FlankContact& m, SectionBou
   // Envelope theorem: how phi2 changes along the path of the maximum (d rho/dz, d rho/d phi1). On a bound that path is exact;
   // inside, the undisturbed one makes an error of second order in the distance from the maximum.
   ContactGradient path{0.0, condition_.roll_rate(), condition_.assembly().pinion.base_radius};
-  if (bound == SectionBound::PinionRoot) path = {};
-  if (bound == SectionBound::PinionTip) path = {0.0, condition_.pinion_tip(z).slope, 0.0};
+  if (bound == SectionBound::PinionRoot || bound == SectionBound::PinionTip) path = {};
   if (is_on_wheel_circle(bound)) {
     const ContactGradient g = condition_.radius_gradient(m);
     path = {0.0, -g.z / g.rho, -g.phi1 / g.rho};

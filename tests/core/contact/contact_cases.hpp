@@ -56,25 +56,16 @@ inline double wheel_angle(const FlankAssembly& scene, int tooth, double phi1, do
   return -through.rotation - tooth * 2.0 * units::pi / scene.wheel_teeth;
 }
 
-/// Roll length at which the pinion's flank ends on its tip cylinder, by bisection.
-inline double tip_roll(const FlankAssembly& scene, int tooth, double z) {
-  double inside = scene.pinion.highest_roll() - 0.5, outside = scene.pinion.highest_roll() + 0.5;  // mm: more than is ever removed
-  for (int i = 0; i < 60; ++i) {
-    const double middle = 0.5 * (inside + outside);
-    const Point3<double> p = flank_point(scene.pinion, middle, z, tooth, 0.0);
-    (std::hypot(p.x, p.y) > scene.pinion.tip_radius ? outside : inside) = middle;
-  }
-  return inside;
-}
-
 /// The largest wheel angle that any point of a grid over the pinion's flank asks for; -infinity where none meets the
 /// wheel's flank.
 inline double highest_on_grid(const FlankAssembly& scene, double phi1, int intervals) {
   double highest = -std::numeric_limits<double>::infinity();
-  const double lo = scene.pinion.lowest_roll();
-  for (int j = 0; j <= intervals; ++j) {
-    const double z = scene.pinion.face.half() * (2.0 * j / intervals - 1.0), hi = tip_roll(scene, 0, z);
-    for (int i = 0; i <= intervals; ++i) highest = std::max(highest, wheel_angle(scene, 0, phi1, lo + (hi - lo) * i / intervals, z));
+  const double lo = scene.pinion.lowest_roll(), hi = scene.pinion.highest_roll();
+  for (int i = 0; i <= intervals; ++i) {
+    for (int j = 0; j <= intervals; ++j) {
+      const double z = scene.pinion.face.half() * (2.0 * j / intervals - 1.0);
+      highest = std::max(highest, wheel_angle(scene, 0, phi1, lo + (hi - lo) * i / intervals, z));
+    }
   }
   return highest;
 }

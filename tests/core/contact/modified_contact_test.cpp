@@ -118,28 +118,6 @@ TEST_CASE("Pitch errors move a pair's transmission error by the metal on its own
   }
 }
 
-TEST_CASE("Metal on all flanks of either gear is a turn of the gear, on flanks and on both gears' tip edges", "[core][contact][closed-form]") {
-  const GearPair pair = make_gear_pair(pair_data(21, 44, GENERATE(0.0, 14.0) * deg));
-  const double metal = GENERATE(-0.1, 0.05);
-  ManufacturingError error;
-  error.cumulative_pitch = {metal};
-  const FlankAssembly as_is = scene_of(pair, {.crossing = 2 * units::arcmin}),
-                      on_pinion = assemble_flanks(pair, {.error = {error, {}}, .misalignment = {.crossing = 2 * units::arcmin}}),
-                      on_wheel = assemble_flanks(pair, {.error = {{}, error}, .misalignment = {.crossing = 2 * units::arcmin}});
-  int pinion_tips = 0, wheel_tips = 0;
-  for (double phi1 = -0.3; phi1 < 0.3; phi1 += 0.02) {
-    const ToothContact turned = find_tooth_contact(as_is, 0, phi1 + metal / pair.pinion.base_radius), given = find_tooth_contact(as_is, 0, phi1);
-    const ToothContact of_pinion = find_tooth_contact(on_pinion, 0, phi1), of_wheel = find_tooth_contact(on_wheel, 0, phi1);
-    CAPTURE(metal, phi1, to_string(turned.kind), to_string(of_pinion.kind));
-    if (turned.exists() && of_pinion.exists()) CHECK(std::abs(of_pinion.phi2 - turned.phi2) <= 1e-9);  // the search's tolerance on an edge
-    if (given.exists() && of_wheel.exists()) CHECK(std::abs(of_wheel.phi2 - given.phi2 - metal / pair.wheel.base_radius) <= 1e-9);
-    pinion_tips += of_pinion.kind == ContactKind::PinionTip;
-    wheel_tips += of_wheel.kind == ContactKind::WheelTip;
-  }
-  CHECK(pinion_tips >= 3);
-  CHECK(wheel_tips >= 3);
-}
-
 TEST_CASE("Removing material never advances the wheel", "[core][contact]") {
   Random random(41);
   for (int i = 0; i < 12; ++i) {

@@ -137,7 +137,8 @@ TEST_CASE("An error that is stated smaller than what a finer cycle changes is re
   for (const auto of : CycleErrors::single()) {
     const double change = std::abs(summary.*of - of_finer.*of);
     CAPTURE(change, instead_of_none.*of, instead_of_wide.*of);
-    if (!(change > 0.0)) continue;  // of a figure that this pair has, and that points along the lines matter to
+    // Of a figure that this pair has, whose error is estimated, and that points along the lines matter to.
+    if (!(change > 0.0) || !std::isfinite(instead_of_wide.*of)) continue;
     CHECK(instead_of_none.*of >= change);
     CHECK(instead_of_none.*of == instead_of_wide.*of);
   }
