@@ -53,7 +53,8 @@ double peak_error(const std::vector<double>& fine, const std::vector<double>& co
 
 /// The errors by points of a cycle that is held against a finer one, with more intervals at the same positions: each is what the two differ by, and the finer
 /// one's own error, which estimate_errors() takes from the same difference; that of the transmission error is doubled, which makes the sum that of order one.
-/// Half the intervals may meet a tip edge that neither of the two meets, so that these are often far narrower. A figure that the finer cycle does not have keeps what is `stated`, and so does one that is stated narrower and changes by no more than that.
+/// Half the intervals may meet a tip edge that neither of the two meets, so that these are often far narrower. A figure that the finer cycle does not have keeps what is `stated`. So does a figure whose stated error is smaller and covers
+/// what changes.
 /// @param summary, finer_summary  of the positions alone
 CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,
                                       const CycleSummary& finer_summary);

@@ -77,7 +77,8 @@ struct DesignOptions {
   int starts{1};         ///< >= 1
   /// Analyses of the search itself, without stages and rounding, >= 1; those of `solver` where that is less.
   int most_search_analyses{std::numeric_limits<int>::max()};
-  /// Begins with the design that exceeds the constraints by least, as a run before met none that keeps them; the objective is searched where that one keeps them.
+  /// Begins with the design that exceeds the constraints by least, because a run before met none that keeps them. The objective is searched only where that
+  /// design keeps them.
   bool nearest_first{false};
   bool to_grind{true};  ///< false: the exact optimum is left as it is, without steps and grinding limits
 };

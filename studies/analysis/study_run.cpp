@@ -344,7 +344,7 @@ void StudyRun::hold_against_finer(std::size_t first) {
     const double on_edges = points.edge_stress / loaded.summary.peak_contact_stress;
     const MeshPlacement placement = placement_of(loaded.condition, loaded.torque);
     const bool is_wide = std::isgreater(std::fmax(std::fmax(error, on_edges), points.tip_edge_share), AutomaticResolution{}.accuracy);
-    // An optimum is where its errors are in its favour: what a search has looked at more finely is held against that.
+    // A search favours designs whose errors are in their favour. Its design is therefore held against every finer mesh that the search has made.
     const bool is_known = loaded.design == "after" && mesh_of_search(placement, {quadrature, results_.phases});
     if (is_wide || is_known) held[placement].push_back({&loaded, is_wide});
   }

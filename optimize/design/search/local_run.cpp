@@ -109,7 +109,7 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     const bool settled = !program.is_majorant() || !best.gains_on(last, round_tolerance_of(options));
     const bool all_known = program.add_candidates(x) == 0, gained = best.gains_on(last, stall_gain_of(options));
     last = best;
-    // Where no design keeps the limits, another round from the same one repeats the last: the excess is searched next, see DesignResult.
+    // Where no design keeps the limits, another round from the same one repeats the last: the excess is searched next, see optimise_design().
     const bool leaves_it_to_the_excess = !best.feasible && !gained && problem.has_upper_bounds();
     if (leaves_it_to_the_excess) {
       run.status = SolverStatus::Infeasible;

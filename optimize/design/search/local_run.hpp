@@ -26,7 +26,8 @@ struct LocalRun {
 /// Solvers with gradients that take constraints get the epigraph form, re-solved from its own optimum until no peak
 /// outside its candidates exceeds them by 1e-6 of the objective at the start (by the solver's tolerance where that is
 /// larger), or 20 rounds are done. A round ends early where the solver no longer gains, and one that
-/// gained nothing is repeated once with more patience. On a kink
+/// gained nothing is repeated once with more patience, unless no design that keeps the limits was met: that is said at once, as the least excess is
+/// searched next (optimise_design()). On a kink
 /// options.finisher continues from its best design; `finished_by` and `message` then say so.
 /// Other solvers get the direct form.
 ///
