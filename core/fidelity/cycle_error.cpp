@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include "core/contact/unloaded/transmission_error.hpp"
 
@@ -11,13 +12,17 @@ namespace flankwright {
 namespace {
 
 // Shares of a difference that are called an error, see estimate_errors().
-constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_peaks = 1.0, of_root_stress = 1.0 / 2.0, of_positions = 1.0 / 3.0;
+constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_harmonics = 1.0 / 2.0, of_peaks = 1.0, of_root_stress = 1.0 / 2.0,
+                 of_positions = 1.0 / 3.0;
 /// Share of the estimated error of the finer cycle that is added to a change, see point_errors_beside_finer().
 constexpr double of_order_one = 2.0;
 /// Positions whose peak is within this fraction of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
 /// The neighbourhood of a position reaches this part of the cycle to either side, one position at least.
 constexpr std::size_t neighbourhoods = 16;
+/// Of phases [base pitches], sums of a few numbers near 1.
+constexpr double round_off = 1e-9;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double mean_of(const std::vector<double>& samples) {
   double sum = 0.0;
@@ -38,19 +43,36 @@ std::vector<double> curve(const LoadedCycle& cycle, const auto& reading) {
   return values;
 }
 
+/// A reading of the fine and of the coarse cycle at one phase [base pitches].
+struct Sample {
+  double phase, fine, coarse;
+};
+
+/// @param fine, coarse  at the same evenly spaced phases over one base pitch
+std::vector<Sample> evenly_spaced(const std::vector<double>& fine, const std::vector<double>& coarse) {
+  std::vector<Sample> samples;
+  for (std::size_t i = 0; i < coarse.size(); ++i)
+    samples.push_back({static_cast<double>(i) / static_cast<double>(coarse.size()), fine[i], coarse[i]});
+  return samples;
+}
+
 /// What a point misses at one position, because a kink of the flanks lies between it and the next, it has at the positions around: the peaks of
 /// neighbourhoods are compared.
-double peak_difference(const std::vector<double>& fine, const std::vector<double>& coarse) {
-  const std::size_t n = fine.size(), reach = std::max<std::size_t>(1, n / neighbourhoods);
-  const auto peak_around = [&](const std::vector<double>& values, std::size_t i) {
-    double peak = values[i];
-    for (std::size_t k = 1; k <= reach; ++k) peak = std::max({peak, values[(i + k) % n], values[(i + n - k % n) % n]});
-    return peak;
-  };
-  const double peak = *std::ranges::max_element(fine);
-  double largest = std::abs(peak - *std::ranges::max_element(coarse));
-  for (std::size_t i = 0; i < n; ++i) {
-    if (fine[i] >= (1.0 - near_peak) * peak) largest = std::max(largest, std::abs(peak_around(fine, i) - peak_around(coarse, i)));
+/// @param n  number of positions of the coarse cycle; samples may be more, between them
+double peak_difference(const std::vector<Sample>& samples, std::size_t n) {
+  const double reach = static_cast<double>(std::max<std::size_t>(1, n / neighbourhoods)) / static_cast<double>(n) + round_off;
+  Sample peak{0.0, -infinity, -infinity};
+  for (const Sample& sample : samples) peak = {0.0, std::max(peak.fine, sample.fine), std::max(peak.coarse, sample.coarse)};
+  double largest = std::abs(peak.fine - peak.coarse);
+  for (const Sample& at : samples) {
+    if (at.fine < (1.0 - near_peak) * peak.fine) continue;
+    Sample around = at;
+    for (const Sample& other : samples) {
+      const double apart = std::abs(other.phase - at.phase);
+      if (std::min(apart, 1.0 - apart) > reach) continue;
+      around = {at.phase, std::max(around.fine, other.fine), std::max(around.coarse, other.coarse)};
+    }
+    largest = std::max(largest, std::abs(around.fine - around.coarse));
   }
   return largest;
 }
@@ -86,7 +108,7 @@ double stiffness_error(double approach_error, const LoadedCycle& cycle, const Cy
   return approach_error / mean_of(curve(cycle, approach_of)) * summary.mean_stiffness;
 }
 
-CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, const CycleSummary& summary) {
+CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, const CycleSummary& summary, const CyclesBetween& between = {}) {
   CycleErrors errors;
   const std::size_t stride = fine.positions.size() / coarse.positions.size();
   const auto some = [&](const auto& reading) { return every(curve(fine, reading), stride); };
@@ -97,22 +119,34 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
     return d;
   };
   const std::vector<double> d = differences(te_of);
-  const auto [low, high] = std::ranges::minmax(d);
-  const double scatter = of_shape * rms_about_mean(d);
+  const auto samples_of = [&](const auto& reading) {
+    std::vector<Sample> samples = evenly_spaced(some(reading), curve(coarse, reading));
+    if (between.fine == nullptr) return samples;
+    for (std::size_t i = 0; i < between.fine->positions.size(); ++i) {
+      const LoadedPosition& at = between.fine->positions[i];
+      samples.push_back({at.phase, reading(at), reading(between.coarse->positions[i])});
+    }
+    return samples;
+  };
+  const auto peaks_apart = [&](const auto& reading) { return of_peaks * peak_difference(samples_of(reading), coarse.positions.size()); };
+  double low = infinity, high = -infinity;
+  for (const Sample& te : samples_of(te_of)) low = std::min(low, te.fine - te.coarse), high = std::max(high, te.fine - te.coarse);
+  const double scatter = of_harmonics * rms_about_mean(d);
   errors.te_mean = mean_error_by_points(d);
   errors.te_peak_to_peak = of_shape * (high - low);
   for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
-    errors.te_harmonics.push_back(of_shape * std::abs(harmonic_phasor(d, static_cast<int>(k))) + scatter);
+    errors.te_harmonics.push_back(of_harmonics * std::abs(harmonic_phasor(d, static_cast<int>(k))) + scatter);
   }
-  errors.peak_contact_stress = of_peaks * peak_difference(some(stress_of), curve(coarse, stress_of));
-  errors.peak_line_load = of_peaks * peak_difference(some(load_of), curve(coarse, load_of));
+  errors.peak_contact_stress = peaks_apart(stress_of);
+  errors.peak_line_load = peaks_apart(load_of);
   errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;
   if (!std::isnan(summary.peak_root_stress) && coarse.positions.front().root_stress.size() > 0) {
-    errors.peak_root_stress = of_root_stress * peak_difference(some(root_of), curve(coarse, root_of));
+    const std::vector<Sample> samples = evenly_spaced(some(root_of), curve(coarse, root_of));
+    errors.peak_root_stress = of_root_stress * peak_difference(samples, coarse.positions.size());
   }
   if (!std::isnan(summary.edge_stress)) {
-    errors.edge_stress = of_peaks * peak_difference(some(edge_stress_of), curve(coarse, edge_stress_of));
-    errors.tip_edge_share = of_peaks * peak_difference(some(edge_share_of), curve(coarse, edge_share_of));
+    errors.edge_stress = peaks_apart(edge_stress_of);
+    errors.tip_edge_share = peaks_apart(edge_share_of);
   }
   errors.mean_stiffness = stiffness_error(mean_error_by_points(differences(approach_of)), fine, summary);
   return errors;
@@ -168,9 +202,10 @@ std::vector<double> coarse_phases(const std::vector<double>& phases) {
   return phases.size() % 2 == 0 && phases.size() >= 8 ? every(phases, 2) : phases;
 }
 
-CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse, const CycleExtremes* extremes) {
+CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse, const CycleExtremes* extremes,
+                                const CyclesBetween& between) {
   if (!fine.usable() || !coarse.usable() || fine.positions.empty() || coarse.positions.empty() || !(fine.force > 0.0)) return {};
-  CycleErrorParts parts{point_errors(fine, coarse, summary), position_errors(fine, summary, extremes)};
+  CycleErrorParts parts{point_errors(fine, coarse, summary, between), position_errors(fine, summary, extremes)};
   join_edge_to_peak(summary, parts.points);
   join_edge_to_peak(summary, parts.positions);
   return parts;
@@ -183,7 +218,7 @@ double mean_error(const std::vector<double>& fine, const std::vector<double>& co
 }
 
 double peak_error(const std::vector<double>& fine, const std::vector<double>& coarse) {
-  return of_peaks * peak_difference(every(fine, fine.size() / coarse.size()), coarse) + unseen_rise(fine);
+  return of_peaks * peak_difference(evenly_spaced(every(fine, fine.size() / coarse.size()), coarse), coarse.size()) + unseen_rise(fine);
 }
 
 CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,

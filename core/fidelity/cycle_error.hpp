@@ -19,6 +19,11 @@ struct CycleErrorParts {
 /// and at least 8, else all.
 std::vector<double> coarse_phases(const std::vector<double>& phases);
 
+/// One contact problem with two numbers of intervals, at the same phases between the positions of a cycle; null: not solved there.
+struct CyclesBetween {
+  const LoadedCycle *fine{nullptr}, *coarse{nullptr};
+};
+
 /// How far a cycle's figures are from those of infinitely many points and positions, by an embedded comparison: the same contact
 /// problem with half the intervals at every second position.
 ///
@@ -26,20 +31,22 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 ///   - The mean is off by |mean d|/2 + rms(d - mean d)/3. The second part is there because positions may make up for each other by chance.
 ///   - What remains in the shape comes from kinks of the load between points. As a kink wanders from point to point its error runs from none to J h^2/8,
 ///     with J the change of slope and h the distance of the points, so that d covers four times the range by which the fine curve is off. A third is
-///     taken, because some of the error converges more slowly. The peak to peak is off by (max d - min d)/3, harmonic k by
-///     (|DFT_k d| + rms(d - mean d))/3: a single order may be small by chance.
+///     taken, because some of the error converges more slowly. The peak to peak is off by (max d - min d)/3. Harmonic k is off by
+///     (|DFT_k d| + rms(d - mean d))/2: a single order may be small by chance, and where kinks wander its fine and coarse errors do not point the same way.
 ///   - Peaks of root stress are off by half of what changes, the mean stiffness as the mean deflection is.
 ///   - Peaks of stress and load mostly lie at the ends of lines and converge with order one at least. They are off by the largest difference of both
 ///     peaks around any position that comes within a tenth of the peak, a sixteenth of the cycle to either side. Position by position they would differ
-///     by more: kinks of a linear relief wander between points.
+///     by more: kinks of a linear relief wander between points. Both cycles are compared at the extremes between the positions as well, where they
+///     were solved there: a contact on a tip edge may be shorter than the spacing of the positions.
 /// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second
 ///   position changes, of the mean at least a third of the highest order that they resolve, which does not depend on where positions meet the curve. Extremes are off by CycleExtremes::unseen after a search, else by unseen_rise().
 ///
 /// @param fine      evenly spaced, with its summary
 /// @param coarse    at coarse_phases() of it, half the intervals
 /// @param extremes  of the fine cycle; null: not sought
+/// @param between   usable, with as many intervals as `fine` and `coarse`
 CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse,
-                                const CycleExtremes* extremes = nullptr);
+                                const CycleExtremes* extremes = nullptr, const CyclesBetween& between = {});
 
 /// Estimated discretisation error of the mean of a reading that every mesh position has, by points and positions, as estimate_errors() has it for the mean
 /// transmission error: in the reading's unit, >= 0.

@@ -122,11 +122,13 @@ class DiscretisationRun {
     const MeshWithParameters at = [&](const std::vector<double>& some, const std::vector<MeshParameter>&) {
       return of.mesh_for({{rule_, intervals}, some});
     };
+    const MeshAt coarse_at = [&](const std::vector<double>& some) { return of.mesh_for({{rule_, std::max(1, intervals / 2)}, some}); };
     const bool seeks = search_.seek_extremes && rule_ == QuadratureRule::Graded;
     const auto level = [&](bool seek) {
       // Where extremes are yet to be sought they count as found.
       static const CycleExtremes found_at_positions;
-      const ResolvedCycle resolved = resolve_cycle(model, cycle, at, of.condition, of.pinion_torque, {.seek_extremes = seek, .coarse = &coarse});
+      const CycleResolving resolving{.seek_extremes = seek, .coarse = &coarse, .coarse_at = coarse_at};
+      const ResolvedCycle resolved = resolve_cycle(model, cycle, at, of.condition, of.pinion_torque, resolving);
       const CycleErrors by_positions =
           seek || !seeks ? resolved.error_parts.positions : estimate_errors(cycle, resolved.summary, coarse, &found_at_positions).positions;
       ResolutionLevel made{intervals, positions, figures_of(model, cycle, resolved.summary)};

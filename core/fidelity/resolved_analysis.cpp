@@ -45,7 +45,8 @@ ResolvedAnalysis analyse_resolved(const MeshOfResolution& mesh_for, const FlankC
     made.cycle = analyse_cycle(made.model, condition, pinion_torque);
     const LoadedCycle coarse = analyse_cycle(mesh_for({half, coarse_phases(made.resolution.phases)}), condition, pinion_torque);
     const auto mesh_at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_for({quadrature, phases}); };
-    made.resolved = resolve_cycle(made.model, made.cycle, mesh_at, condition, pinion_torque, {.coarse = &coarse});
+    const MeshAt coarse_at = [&](const std::vector<double>& phases) { return mesh_for({half, phases}); };
+    made.resolved = resolve_cycle(made.model, made.cycle, mesh_at, condition, pinion_torque, {.coarse = &coarse, .coarse_at = coarse_at});
     made.error = headline_error(made.resolved.errors, made.resolved.summary, made.cycle);
   } while (made.error > automatic.accuracy && refine(automatic, made.resolved, made.cycle));
   return made;

@@ -51,7 +51,14 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
     include(model, cycle, resolved.extreme_cycle, resolved.summary);
   }
   if (resolving.coarse != nullptr) {
-    resolved.error_parts = estimate_errors(cycle, resolved.summary, *resolving.coarse, resolving.seek_extremes ? &resolved.extremes : nullptr);
+    LoadedCycle coarse;
+    CyclesBetween between;
+    if (resolving.coarse_at && resolved.extreme_mesh) {
+      coarse = analyse_cycle(resolving.coarse_at(resolved.extremes.phases), condition, pinion_torque, {}, {}, RootStresses::Later);
+      if (coarse.usable() && resolved.extreme_cycle.usable()) between = {&resolved.extreme_cycle, &coarse};
+    }
+    const CycleExtremes* const sought = resolving.seek_extremes ? &resolved.extremes : nullptr;
+    resolved.error_parts = estimate_errors(cycle, resolved.summary, *resolving.coarse, sought, between);
     resolved.errors = resolved.error_parts.sum();
   }
   return resolved;

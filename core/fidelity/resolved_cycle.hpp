@@ -24,6 +24,7 @@ using MeshWithParameters = std::function<MeshModel(const std::vector<double>& ph
 struct CycleResolving {
   bool seek_extremes{true};            ///< false: extremes are those of the positions
   const LoadedCycle* coarse{nullptr};  ///< at coarse_phases() or at all phases of the cycle, with fewer intervals; null: no error is estimated
+  MeshAt coarse_at{};                  ///< the mesh of `coarse` at other phases; empty: both are compared at the positions alone
 };
 
 /// Seeks the extremes of a solved cycle and holds it against a coarser one.

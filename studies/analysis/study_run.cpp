@@ -173,16 +173,24 @@ MeshModel StudyRun::mesh_of_load_cases(const MeshPlacement& placement) {
   return model;
 }
 
+namespace {
+
+Quadrature halved(Quadrature quadrature) {
+  quadrature.intervals /= 2;
+  return quadrature;
+}
+
+}  // namespace
+
 std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<MeshPlacement>& placements) {
-  Quadrature quadrature = results_.study.fidelity.quadrature;
+  const Quadrature& quadrature = results_.study.fidelity.quadrature;
   std::vector<const MeshModel*> coarse(placements.size(), nullptr);
   if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return coarse;
-  quadrature.intervals /= 2;
   std::vector<MeshPlacement> unknown;
   for (const MeshPlacement& placement : placements) {
     if (coarse_models_.try_emplace(placement).second) unknown.push_back(placement);
   }
-  const MeshResolution resolution{quadrature, coarse_phases(results_.phases)};
+  const MeshResolution resolution{halved(quadrature), coarse_phases(results_.phases)};
   const PairRootStress* root_stress = structures().root_stress.get();
   tbb::parallel_for(std::size_t{0}, unknown.size(),
                     [&](std::size_t i) { coarse_models_.at(unknown[i]) = mesh(unknown[i], resolution, root_stress, results_.shafts.get(), {}); });
@@ -209,7 +217,9 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
     };
     std::optional<LoadedCycle> coarse_cycle;
     if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
-    const CycleResolving resolving{.seek_extremes = seeks_extremes(results_.study), .coarse = coarse_cycle ? &*coarse_cycle : nullptr};
+    const CycleResolving resolving{.seek_extremes = seeks_extremes(results_.study),
+                                   .coarse = coarse_cycle ? &*coarse_cycle : nullptr,
+                                   .coarse_at = mesh_at(scene.condition, scene.torque, true, {}, halved(results_.study.fidelity.quadrature))};
     all[i] = resolve_cycle(*model, *cycle, at, scene.condition, scene.torque, resolving, gradient_parameters());
   });
   return all;
