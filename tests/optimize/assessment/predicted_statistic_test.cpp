@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "optimize/assessment/validation.hpp"
 #include "optimize/sampling/distribution.hpp"
 #include "optimize/sampling/sample_design.hpp"
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
@@ -44,8 +44,7 @@ TEST_CASE("The interval of a quantile is that of the tables of order statistics"
 }
 
 TEST_CASE("The interval holds the quantile of any distribution as often as it says", "[optimize][assessment][scatter]") {
-  std::mt19937 generator(5);
-  std::uniform_real_distribution<double> uniform;
+  tests::Random32 random(5);
   constexpr int draws = 200, trials = 4000;
   constexpr double level = 0.9;
   const auto [low, high] = quantile_interval(level, draws, 0.95);
@@ -53,7 +52,7 @@ TEST_CASE("The interval holds the quantile of any distribution as often as it sa
   int held = 0;
   for (int trial = 0; trial < trials; ++trial) {
     std::vector<double> sample(draws);
-    std::ranges::generate(sample, [&] { return uniform(generator); });
+    std::ranges::generate(sample, [&] { return random(0.0, 1.0); });
     held +=
         aggregate({Aggregate::Quantile, 2.0, low}, sample, weights) <= level && level < aggregate({Aggregate::Quantile, 2.0, high}, sample, weights);
   }
