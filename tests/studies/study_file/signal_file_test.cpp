@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 #include <string>
 
 #include "core/base/thread_stopwatch.hpp"
@@ -12,6 +11,7 @@
 #include "studies/results/results_json.hpp"
 #include "studies/study_file/stored_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/common/random.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/study_file/life_texts.hpp"
 
@@ -90,16 +90,12 @@ TEST_CASE("A malformed signal is refused with line and column", "[studies][life]
 }
 
 TEST_CASE("Whatever a signal's file holds, it is read or refused", "[studies][life]") {
-  std::mt19937 generator(8);
+  tests::Random random(8);
   const std::string letters = "0123456789.-+eE,;\t \n#\"[]naif_torquetimespeed";
-  std::uniform_int_distribution<std::size_t> letter(0, letters.size() - 1), change(0, 3);
   int refused = 0, read = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     std::string text = triangle;
-    for (std::size_t k = change(generator); k > 0; --k) {
-      const std::size_t at = std::uniform_int_distribution<std::size_t>(0, text.size() - 1)(generator);
-      text[at] = letters[letter(generator)];
-    }
+    for (int k = random.integer(0, 3); k > 0; --k) text[random.below(text.size())] = letters[random.below(letters.size())];
     try {
       const LoadSignal signal = parse_signal(text, "torque.csv");
       CHECK_NOTHROW(signal.validate());
