@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
@@ -16,8 +17,8 @@ TEST_CASE("What a few positions give is the objective of the design they are of,
   DesignTask task = helical();
   task.objective = objective.terms;
   const DesignProblem problem(task);
-  std::mt19937 generator(3);
-  const PerGear<Modification> best = problem.modification(random_design(problem.variables(), generator));
+  tests::Random32 random(3);
+  const PerGear<Modification> best = problem.modification(random_design(problem.variables(), random));
   for (int scene = 0; scene < problem.scenes(); ++scene) {
     const LoadedCycle cycle = problem.analyse_scene(scene, best);
     const std::vector<std::size_t> positions = deciding_positions(objective, problem.scene_of(cycle, scene));
@@ -25,7 +26,7 @@ TEST_CASE("What a few positions give is the objective of the design they are of,
     REQUIRE(positions.size() < cycle.positions.size());
     CHECK(std::ranges::is_sorted(positions));
     for (int run = 0; run < 5; ++run) {
-      const PerGear<Modification> design = run == 0 ? best : problem.modification(random_design(problem.variables(), generator));
+      const PerGear<Modification> design = run == 0 ? best : problem.modification(random_design(problem.variables(), random));
       const LoadedCycle some = problem.analyse_positions(scene, positions, design, &cycle);
       const double least = least_measure(objective, problem.scene_of(some, scene), positions);
       const double measure = problem.scene_measure(objective, problem.analyse_scene(scene, design), scene);

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "optimize/design/outputs/aggregate.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 
@@ -12,10 +12,9 @@ constexpr Aggregate all_aggregates[] = {Aggregate::Nominal,        Aggregate::Wo
                                         Aggregate::MeanPlusSigmas, Aggregate::Cvar,  Aggregate::Quantile};
 constexpr double round_off = 1e-14;
 
-std::vector<double> random_numbers(std::size_t n, std::mt19937& generator) {
-  std::uniform_real_distribution<double> positive(0.5, 5.0);
+std::vector<double> random_numbers(std::size_t n, tests::Random32& random) {
   std::vector<double> numbers(n);
-  for (double& x : numbers) x = positive(generator);
+  for (double& x : numbers) x = random(0.5, 5.0);
   return numbers;
 }
 
@@ -37,8 +36,8 @@ TEST_CASE("Aggregates of three scenes are the closed forms", "[optimize][design]
 }
 
 TEST_CASE("Aggregates grow with a common factor and ignore a factor of the weights", "[optimize][design]") {
-  std::mt19937 generator(3);
-  const std::vector<double> measures = random_numbers(6, generator), weights = random_numbers(6, generator);
+  tests::Random32 random(3);
+  const std::vector<double> measures = random_numbers(6, random), weights = random_numbers(6, random);
   std::vector<double> larger, heavier;
   for (double m : measures) larger.push_back(7.0 * m);
   for (double w : weights) heavier.push_back(3.0 * w);
@@ -56,9 +55,9 @@ TEST_CASE("Aggregates grow with a common factor and ignore a factor of the weigh
 }
 
 TEST_CASE("Derivatives of the aggregates are what central differences say", "[optimize][design]") {
-  std::mt19937 generator(4);
+  tests::Random32 random(4);
   for (int trial = 0; trial < 20; ++trial) {
-    const std::vector<double> measures = random_numbers(5, generator), weights = random_numbers(5, generator);
+    const std::vector<double> measures = random_numbers(5, random), weights = random_numbers(5, random);
     for (Aggregate over : all_aggregates) {
       const std::vector<double> derivative = aggregate_weights(over, measures, weights);
       for (std::size_t s = 0; s < measures.size(); ++s) {
@@ -97,9 +96,9 @@ TEST_CASE("The quantile of a sample is its order statistic", "[optimize][design]
 }
 
 TEST_CASE("The mean beyond a quantile is no less than the quantile", "[optimize][design]") {
-  std::mt19937 generator(5);
+  tests::Random32 random(5);
   for (int trial = 0; trial < 20; ++trial) {
-    const std::vector<double> measures = random_numbers(30, generator), weights = random_numbers(30, generator);
+    const std::vector<double> measures = random_numbers(30, random), weights = random_numbers(30, random);
     for (double level : {0.0, 0.5, 0.9, 0.95}) {
       CAPTURE(trial, level);
       CHECK(aggregate({Aggregate::Cvar, 2.0, level}, measures, weights) >= aggregate({Aggregate::Quantile, 2.0, level}, measures, weights));

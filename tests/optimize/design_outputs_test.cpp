@@ -7,6 +7,7 @@
 #include "core/contact/unloaded/transmission_error.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "optimize/design/outputs/scene_outputs.hpp"
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/output_gradients.hpp"
 
@@ -49,9 +50,9 @@ std::vector<double> all_values(const ObjectiveTerm& term, const MeshModel& model
 
 TEST_CASE("An output is what the cycle itself shows", "[optimize][design][outputs]") {
   DesignProblem problem(helical());
-  std::mt19937 generator(5);
+  tests::Random32 random(5);
   for (int trial = 0; trial < 5; ++trial) {
-    DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
+    DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), random), false);
     problem.add_root_stress(analysis);
     for (int s = 0; s < problem.scenes(); ++s) {
       const LoadedCycle& cycle = cycle_of(analysis, s);
@@ -80,8 +81,8 @@ TEST_CASE("An output is what the cycle itself shows", "[optimize][design][output
 
 TEST_CASE("Leading candidates are the peak and all that come near it", "[optimize][design][outputs]") {
   DesignProblem problem(helical());
-  std::mt19937 generator(6);
-  DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
+  tests::Random32 random(6);
+  DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), random), false);
   problem.add_root_stress(analysis);
   const double margin = 0.15;
   for (const ObjectiveTerm& output : all_outputs()) {
@@ -112,9 +113,9 @@ TEST_CASE("Leading candidates are the peak and all that come near it", "[optimiz
 
 TEST_CASE("Gradients of every output are what central differences say", "[optimize][design][outputs][gradient]") {
   DesignProblem problem(task_with_reliefs());
-  std::mt19937 generator(7);
+  tests::Random32 random(7);
   for (int trial = 0; trial < 4; ++trial) {
-    const Eigen::VectorXd x = random_design(problem.variables(), generator);
+    const Eigen::VectorXd x = random_design(problem.variables(), random);
     CAPTURE(trial);
     // Some 0.001 um on amounts: differences lose 1e-12 / 2e-5 to round-off and step^2 to curvature.
     CHECK(check_output_gradients(problem, x, all_outputs(), 2e-5, 1e-6) > 0);
@@ -129,9 +130,9 @@ TEST_CASE("Gradients by a twist compensation are what central differences say", 
   task.variables.push_back({"pinion.twist_compensation", Member::Pinion, parameter_of("twist_compensation"), 0.0, 1.0});
   task.variables.push_back({"wheel.twist_compensation", Member::Wheel, parameter_of("twist_compensation"), 0.0, 0.8});
   DesignProblem problem(task);
-  std::mt19937 generator(13);  // designs at which no point gains or loses contact within the step
+  tests::Random32 random(13);  // designs at which no point gains or loses contact within the step
   for (int trial = 0; trial < 2; ++trial) {
-    const Eigen::VectorXd x = random_design(problem.variables(), generator);
+    const Eigen::VectorXd x = random_design(problem.variables(), random);
     CAPTURE(trial);
     CHECK(check_output_gradients(problem, x, all_outputs(), 2e-5, 1e-6) > 0);  // as above
   }
@@ -161,10 +162,10 @@ TEST_CASE("An output of a cycle that failed somewhere is refused", "[optimize][d
 
 TEST_CASE("A harmonic's directions never exceed its amplitude and fall short of it by no more than half a per cent", "[optimize][design][outputs]") {
   DesignProblem problem(helical());
-  std::mt19937 generator(11);
+  tests::Random32 random(11);
   const ObjectiveTerm first = term(Output::TeHarmonic, 1);
   for (int trial = 0; trial < 10; ++trial) {
-    const DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
+    const DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), random), false);
     for (int s = 0; s < problem.scenes(); ++s) {
       const LoadedCycle& cycle = cycle_of(analysis, s);
       const double amplitude = output_value(first, {problem.model(s), cycle});

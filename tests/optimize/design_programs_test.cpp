@@ -3,6 +3,7 @@
 #include "optimize/design/search/direct_program.hpp"
 #include "optimize/design/search/epigraph_program.hpp"
 
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/program_gradients.hpp"
 
@@ -30,8 +31,8 @@ TEST_CASE("The direct programme's gradients are what central differences say", "
   DesignProblem problem(with_two_outputs_and_a_bound(over));
   DesignLog log(nullptr);
   DirectProgram program(problem, log);
-  std::mt19937 generator(8);
-  for (int trial = 0; trial < 3; ++trial) check_gradients(program, random_design(problem.variables(), generator));
+  tests::Random32 random(8);
+  for (int trial = 0; trial < 3; ++trial) check_gradients(program, random_design(problem.variables(), random));
 }
 
 TEST_CASE("The epigraph programme's gradients are what central differences say", "[optimize][design][gradient]") {
@@ -45,9 +46,9 @@ TEST_CASE("The epigraph programme's gradients are what central differences say",
   DesignProblem problem(task);
   DesignLog log(nullptr);
   EpigraphProgram program(problem, log);
-  std::mt19937 generator(9);
+  tests::Random32 random(9);
   Eigen::VectorXd y = program.start();
-  y.head(problem.variables()) = random_design(problem.variables(), generator);
+  y.head(problem.variables()) = random_design(problem.variables(), random);
   check_gradients(program, y);
 }
 

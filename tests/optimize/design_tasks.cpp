@@ -61,11 +61,6 @@ std::vector<ObjectiveTerm> all_outputs() {
           term(Output::EffectiveContactRatio), term(Output::EdgeLoad)};
 }
 
-Eigen::VectorXd random_design(int variables, std::mt19937& generator) {
-  std::uniform_real_distribution<double> inside(0.05, 0.95);
-  Eigen::VectorXd x(variables);
-  for (double& value : x) value = inside(generator);
-  return x;
-}
+Eigen::VectorXd random_design(int variables, tests::Random32& random) { return random.vector(variables, 0.05, 0.95); }
 
 }  // namespace flankwright::design_tasks

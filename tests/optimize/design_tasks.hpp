@@ -1,10 +1,10 @@
 #pragma once
 
-#include <random>
 #include <string>
 #include <vector>
 
 #include "optimize/design/problem/design_problem.hpp"
+#include "tests/common/random.hpp"
 
 /// Small design tasks that the tests of optimize share: real pairs, coarsely resolved.
 namespace flankwright::design_tasks {
@@ -24,6 +24,6 @@ std::vector<ObjectiveTerm> all_outputs();
 ObjectiveTerm term(Output output, int harmonic = 0, double weight = 1.0);
 
 /// A scaled design inside the bounds.
-Eigen::VectorXd random_design(int variables, std::mt19937& generator);
+Eigen::VectorXd random_design(int variables, tests::Random32& random);
 
 }  // namespace flankwright::design_tasks

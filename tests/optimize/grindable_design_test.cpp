@@ -60,7 +60,7 @@ TEST_CASE("An amount below the smallest is left out or raised, whichever is bett
   REQUIRE(choice.amounts.size() == 1);
   CHECK_FALSE(choice.is_of_pair());
   CHECK(choice.amounts.front().parameter == parameter_of("lead_slope"));
-  CHECK(choice.amounts.front().found == Approx(free.after.variables[1]));
+  CHECK(choice.amounts.front().found == Approx(free.after.variables[1]).epsilon(1e-5));  // the same search once more
   REQUIRE(choice.tried.size() == 2);
   CHECK(choice.tried[0].held == HeldAmount::AtZero);
   CHECK(choice.tried[0].value == 0.0);

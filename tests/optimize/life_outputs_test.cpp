@@ -8,6 +8,7 @@
 #include "optimize/design/search/direct_program.hpp"
 #include "optimize/design/search/epigraph_program.hpp"
 #include "optimize/design/outputs/scene_outputs.hpp"
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/output_gradients.hpp"
 #include "tests/optimize/program_gradients.hpp"
@@ -61,9 +62,9 @@ TEST_CASE("Gradients of damage, loss, film and temperature are what central diff
   DesignProblem problem(task);
   std::vector<ObjectiveTerm> terms;
   for (const Output output : life_terms) terms.push_back(term(output));
-  std::mt19937 generator(11);
+  tests::Random32 random(11);
   for (int trial = 0; trial < 3; ++trial) {
-    const Eigen::VectorXd x = random_design(problem.variables(), generator);
+    const Eigen::VectorXd x = random_design(problem.variables(), random);
     CAPTURE(trial);
     // As the other outputs' gradients: some 0.001 um; the exponent 13 of the S-N curve magnifies curvature.
     CHECK(check_output_gradients(problem, x, terms, 1e-5, 1e-6) > 50);
@@ -208,14 +209,14 @@ TEST_CASE("Programmes see the root of damage, with its gradients, and tell the d
   DesignProblem problem(task);
   DesignLog log(nullptr);
   EpigraphProgram epigraph(problem, log);
-  std::mt19937 generator(12);
+  tests::Random32 random(12);
   Eigen::VectorXd y = epigraph.start();
   const double damage = problem.objective(problem.analyse(problem.start(), false));
   CHECK(epigraph.objective_of(epigraph.evaluate(y, false).objective).value == Approx(damage).epsilon(1e-4));  // mean + k sigma is smoothed
-  y.head(problem.variables()) = random_design(problem.variables(), generator);
+  y.head(problem.variables()) = random_design(problem.variables(), random);
   check_gradients(epigraph, y);
   DirectProgram direct(problem, log);
-  check_gradients(direct, random_design(problem.variables(), generator));
+  check_gradients(direct, random_design(problem.variables(), random));
 }
 
 TEST_CASE("Under a single load the least damage is that of the least stress, from whichever start", "[optimize][design][life]") {
@@ -227,9 +228,9 @@ TEST_CASE("Under a single load the least damage is that of the least stress, fro
   DesignProblem for_stress(stress_task);
   const DesignResult least_stress = optimise_design(for_stress, DesignOptions{});
   DesignProblem for_damage(task);
-  std::mt19937 generator(13);
+  tests::Random32 random(13);
   for (int start = 0; start < 3; ++start) {
-    if (start > 0) for_damage.set_start(random_design(for_damage.variables(), generator));
+    if (start > 0) for_damage.set_start(random_design(for_damage.variables(), random));
     const DesignResult least_damage = optimise_design(for_damage, DesignOptions{});
     CAPTURE(start, least_damage.before.objective, least_damage.after.objective, least_damage.message);
     // Of the searches, which stop on kinks.

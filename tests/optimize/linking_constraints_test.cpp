@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include "optimize/design/design_optimiser.hpp"
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
@@ -34,8 +35,8 @@ TEST_CASE("A tied modification follows its variable, and gradients go through it
   task.links = {link(0, Member::Wheel, parameter_of("lead_crowning"), 0.5, 0.002),
                 link(2, Member::Wheel, parameter_of("profile_crowning"), -1.0, 0.030)};
   DesignProblem problem(task);
-  std::mt19937 generator(21);
-  const Eigen::VectorXd x = random_design(problem.variables(), generator);
+  tests::Random32 random(21);
+  const Eigen::VectorXd x = random_design(problem.variables(), random);
   const DesignAnalysis at = problem.analyse(x, true);
   constexpr double round_off = 1e-15;
   CHECK(at.modification.wheel.lead_crowning == Approx(0.5 * problem.unscaled(x, 0) + 0.002).epsilon(round_off));

@@ -1,19 +1,17 @@
 #include "optimize/solvers/nonnegative_least_squares.hpp"
 
 #include <catch2/catch.hpp>
-#include <random>
+
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 
 TEST_CASE("Non-negative least squares satisfies its optimality conditions", "[optimize]") {
-  std::mt19937 generator(5);
-  std::normal_distribution<double> normal;
+  tests::Random32 random(5);
   for (int run = 0; run < 200; ++run) {
     const Eigen::Index m = 1 + run % 9, n = 1 + run % 13;
-    Eigen::MatrixXd A(m, n);
-    Eigen::VectorXd b(m);
-    for (double& a : A.reshaped()) a = normal(generator);
-    for (double& v : b) v = normal(generator);
+    Eigen::MatrixXd A = random.normal_matrix(m, n);
+    const Eigen::VectorXd b = random.normal_matrix(m, 1);
     if (n > 2) A.col(2) = A.col(0);  // columns that depend on each other
     const Eigen::VectorXd y = nonnegative_least_squares(A, b);
     const Eigen::VectorXd slope = A.transpose() * (A * y - b);
@@ -25,16 +23,13 @@ TEST_CASE("Non-negative least squares satisfies its optimality conditions", "[op
 }
 
 TEST_CASE("A pull is a diagonal below the matrix", "[optimize]") {
-  std::mt19937 generator(6);
-  std::normal_distribution<double> normal;
+  tests::Random32 random(6);
   for (int run = 0; run < 60; ++run) {
     const bool many = run >= 50;  // columns, which enter and leave by the dozen
     const Eigen::Index m = many ? 20 : 1 + run % 4, n = many ? 150 : 2 + run % 11;
-    Eigen::MatrixXd A(m, n);
-    Eigen::VectorXd b(m), pull(n);
-    for (double& a : A.reshaped()) a = normal(generator);
-    for (double& v : b) v = normal(generator);
-    for (double& s : pull) s = std::abs(normal(generator)) + 0.1;  // with each above 0 the minimiser is unique
+    const Eigen::MatrixXd A = random.normal_matrix(m, n);
+    const Eigen::VectorXd b = random.normal_matrix(m, 1);
+    const Eigen::VectorXd pull = random.normal_matrix(n, 1).array().abs() + 0.1;  // with each above 0 the minimiser is unique
     Eigen::MatrixXd below = Eigen::MatrixXd::Zero(m + n, n);
     below.topRows(m) = A;
     below.bottomRows(n).diagonal() = pull;
@@ -46,19 +41,13 @@ TEST_CASE("A pull is a diagonal below the matrix", "[optimize]") {
 }
 
 TEST_CASE("Columns that nearly depend on each other do not keep it from the least sum of squares", "[optimize]") {
-  std::mt19937 generator(7);
-  std::normal_distribution<double> normal;
+  tests::Random32 random(7);
   for (int run = 0; run < 60; ++run) {
     constexpr Eigen::Index m = 8, kinds = 5, alike = 20;
     const double apart = std::pow(10.0, -10 - run % 5);
-    Eigen::MatrixXd one(m, kinds), A(m, kinds * alike);
-    Eigen::VectorXd b(m);
-    for (double& a : one.reshaped()) a = normal(generator);
-    for (double& v : b) v = normal(generator);
-    for (Eigen::Index j = 0; j < A.cols(); ++j) {
-      A.col(j) = one.col(j % kinds);
-      for (double& a : A.col(j)) a += apart * normal(generator);
-    }
+    const Eigen::MatrixXd one = random.normal_matrix(m, kinds);
+    const Eigen::VectorXd b = random.normal_matrix(m, 1);
+    const Eigen::MatrixXd A = one.replicate(1, alike) + apart * random.normal_matrix(m, kinds * alike);
     const Eigen::VectorXd y = nonnegative_least_squares(A, b);
     const double least = (one * nonnegative_least_squares(one, b) - b).norm();
     CAPTURE(run, apart);

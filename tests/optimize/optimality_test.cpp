@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "optimize/design/design_optimiser.hpp"
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
@@ -84,10 +84,10 @@ TEST_CASE("Where the conditions hold no direction descends, and on kinks they ho
     const Eigen::VectorXd x = problem.scaled_design(result.after.variables);
     const auto value = [&](const Eigen::VectorXd& at) { return problem.objective(problem.analyse(at, false)) / result.before.objective; };
     const double least = value(x);
-    std::mt19937 generator(3);
+    tests::Random32 random(3);
     for (int k = 0; k < 50; ++k) {
       constexpr double step = 3e-3;
-      const Eigen::VectorXd towards = random_design(static_cast<int>(x.size()), generator) - x;
+      const Eigen::VectorXd towards = random_design(static_cast<int>(x.size()), random) - x;
       CHECK(value(x + step * towards.normalized()) >= least - 1e-3 * step);
     }
   }

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
@@ -96,8 +96,8 @@ TEST_CASE("A front of three objectives has the best of each among its corners an
 TEST_CASE("An objective that can vanish stays near zero at its best point, and the other objective is minimised there",
           "[optimize][design][pareto]") {
   DesignProblem problem(trading_task());
-  std::mt19937 generator(2);
-  problem.set_start(random_design(3, generator));
+  tests::Random32 random(2);
+  problem.set_start(random_design(3, random));
   const Objective edge{{term(Output::EdgeLoad)}, Aggregate::Worst};
   SolverOptions options;
   options.name = "nlopt:slsqp";

@@ -1,8 +1,7 @@
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "optimize/design/design_optimiser.hpp"
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -11,30 +10,23 @@ using namespace flankwright::design_tasks;
 
 namespace {
 
-double between(std::mt19937& generator, double low, double high) { return low + (high - low) * (static_cast<double>(generator()) / 4294967296.0); }
-
-template <typename Value>
-const Value& one_of(std::mt19937& generator, const std::vector<Value>& values) {
-  return values[generator() % values.size()];
-}
-
 /// A pair, a set of misalignments, an objective and how it is taken over the set, all at random.
 DesignTask random_task(unsigned seed) {
-  std::mt19937 generator(seed);
+  tests::Random32 random(seed);
   PairData data;
-  data.normal_module = between(generator, 1.5, 8.0);
-  data.helix_angle = one_of<double>(generator, {0.0, 10.0, 20.0, 30.0}) * units::deg;
-  data.pinion.teeth = 18 + static_cast<int>(generator() % 15);
-  data.wheel.teeth = data.pinion.teeth + static_cast<int>(generator() % 50);
-  data.pinion.face_width = data.wheel.face_width = between(generator, 6.0, 12.0) * data.normal_module;
+  data.normal_module = random.coarse(1.5, 8.0);
+  data.helix_angle = random.one_of<double>({0.0, 10.0, 20.0, 30.0}) * units::deg;
+  data.pinion.teeth = 18 + static_cast<int>(random.below(15));
+  data.wheel.teeth = data.pinion.teeth + static_cast<int>(random.below(50));
+  data.pinion.face_width = data.wheel.face_width = random.coarse(6.0, 12.0) * data.normal_module;
   DesignTask task;
   task.pair = make_gear_pair(data);
   task.resolution = {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(8)};
-  const double m = data.normal_module, reach = between(generator, 0.5, 1.5) * m * units::um;
+  const double m = data.normal_module, reach = random.coarse(0.5, 1.5) * m * units::um;
   for (double share : {0.0, 1.0, -1.0}) {
     DesignScene scene;
     scene.name = std::to_string(share);
-    scene.torque = between(generator, 0.8, 1.2) * 1.5 * m * m * m * units::newton_metre;  // some 1000 MPa at most
+    scene.torque = random.coarse(0.8, 1.2) * 1.5 * m * m * m * units::newton_metre;  // some 1000 MPa at most
     scene.condition.misalignment.mesh_misalignment = share * reach;
     task.scenes.push_back(scene);
   }
@@ -44,9 +36,9 @@ DesignTask random_task(unsigned seed) {
   variable("lead_crowning", parameter_of("lead_crowning"), 0.0, 4.0);
   variable("lead_slope", parameter_of("lead_slope"), -2.0, 2.0);
   variable("profile_crowning", parameter_of("profile_crowning"), 0.0, 3.0);
-  task.objective = {one_of<ObjectiveTerm>(
-      generator, {term(Output::PeakContactStress), term(Output::TePeakToPeak), term(Output::TeHarmonic, 1), term(Output::LoadFactor)})};
-  task.over = one_of<Aggregation>(generator, {Aggregate::Worst, Aggregate::Mean, {Aggregate::Cvar, 2.0, 0.5}});
+  task.objective = {random.one_of<ObjectiveTerm>(
+      {term(Output::PeakContactStress), term(Output::TePeakToPeak), term(Output::TeHarmonic, 1), term(Output::LoadFactor)})};
+  task.over = random.one_of<Aggregation>({Aggregate::Worst, Aggregate::Mean, {Aggregate::Cvar, 2.0, 0.5}});
   return task;
 }
 

@@ -2,7 +2,6 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "optimize/assessment/validation.hpp"
 #include "optimize/design/search/direct_program.hpp"
@@ -12,6 +11,7 @@
 #include "optimize/design/scatter/screening.hpp"
 #include "optimize/sampling/distribution.hpp"
 #include "optimize/sampling/sample_design.hpp"
+#include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
@@ -357,15 +357,14 @@ TEST_CASE("A statistic is modelled exactly at the design analysed, and to first 
 }
 
 TEST_CASE("A guess screens the draws that decide a quantile, whatever it is wrong about", "[optimize][design][scatter]") {
-  std::mt19937 generator(3);
-  std::normal_distribution<double> normal;
+  tests::Random32 random(3);
   const std::vector<double> weights(400, 1.0);
   const Aggregation quantile{Aggregate::Quantile, 2.0, 0.95};
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<double> truth, guess;
     for (int i = 0; i < 400; ++i) {
-      truth.push_back(500.0 + 30.0 * normal(generator));
-      guess.push_back(truth.back() * (1.0 + 0.005 * normal(generator)));
+      truth.push_back(500.0 + 30.0 * random.normal());
+      guess.push_back(truth.back() * (1.0 + 0.005 * random.normal()));
     }
     guess[static_cast<std::size_t>(trial)] = INFINITY;  // a draw of which nothing is known
     const std::vector<int> analysed = screen(

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
 
+#include "tests/common/random.hpp"
 #include "tests/problems/library.hpp"
 
 namespace flankwright {
@@ -79,8 +79,7 @@ void check_same_run(const SolverResult& a, const SolverResult& b) {
 TEST_CASE("the problem library's gradients agree with central differences", "[optimize][solver]") {
   auto problems = solvable();
   problems.push_back([] { return std::make_unique<Infeasible>(); });
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> fraction(0.2, 0.45);
+  tests::Random32 random(7);
   for (const auto& make : problems) {
     const auto problem = make();
     CAPTURE(problem->name());
@@ -88,7 +87,7 @@ TEST_CASE("the problem library's gradients agree with central differences", "[op
     for (int trial = 0; trial < 3; ++trial) {
       Eigen::VectorXd x = problem->start();
       if (trial > 0) {
-        for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = lower[i] + fraction(random) * range[i];
+        for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = lower[i] + random(0.2, 0.45) * range[i];
       }
       const ProgramValues at = problem->evaluate(x, true);
       for (Eigen::Index i = 0; i < x.size(); ++i) {

@@ -2,23 +2,18 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
-#include <random>
+
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 
 TEST_CASE("A wide product is the product of matrices, whatever their sizes", "[core][base]") {
-  std::mt19937 generator(3);
-  std::normal_distribution<double> normal;
-  const auto drawn = [&](Eigen::Index rows, Eigen::Index columns) {
-    Eigen::MatrixXd matrix(rows, columns);
-    for (double& value : matrix.reshaped()) value = normal(generator);
-    return matrix;
-  };
+  tests::Random32 random(3);
   for (const Eigen::Index rows : {1, 7, 256, 300, 515}) {
     for (const Eigen::Index terms : {1, 4, 6, 33}) {
       for (const Eigen::Index columns : {0, 1, 4, 11}) {
         CAPTURE(rows, terms, columns);
-        const Eigen::MatrixXd A = drawn(rows, terms), B = drawn(terms, columns);
+        const Eigen::MatrixXd A = random.normal_matrix(rows, terms), B = random.normal_matrix(terms, columns);
         const Eigen::MatrixXd product = wide_product(A, B);
         REQUIRE(product.rows() == rows);
         REQUIRE(product.cols() == columns);

@@ -138,7 +138,7 @@ TEST_CASE("A contact twice as stiff under twice the load deflects alike", "[core
 }
 
 TEST_CASE("The tip factor is Steward's parabola, then falls smoothly and monotonically to one", "[core][compliance]") {
-  CHECK(tip_factor(0).value == Approx(1.627));
+  CHECK(tip_factor(0).value == 1.627);
   CHECK(tip_factor(2).value == Approx(1.627 - 0.564 + 0.13352).epsilon(1e-14));
   CHECK(tip_factor(5).value == 1);
   CHECK(tip_factor(INFINITY).value == 1);

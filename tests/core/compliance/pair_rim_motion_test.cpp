@@ -96,9 +96,10 @@ TEST_CASE("The rims' misalignment is what the influence matrix tilts the flanks 
   CHECK(motion.tilt * kRimWidth > std::abs(motion.misalignment));
   if (helix > 0) CHECK(motion.axial * pair.acute_end(member) > 0);  // the flank's outward normal points away from the acute end
   // Linear in the forces, and nothing without.
+  constexpr double round_off = 1e-12;
   const RimMotion twice = motions.motion(member, points, 2 * forces, 0), none = motions.motion(member, points, 0 * forces, 0);
-  CHECK(twice.misalignment == Approx(2 * motion.misalignment));
-  CHECK(twice.tilt == Approx(2 * motion.tilt));
+  CHECK(twice.misalignment == Approx(2 * motion.misalignment).epsilon(round_off));
+  CHECK(twice.tilt == Approx(2 * motion.tilt).epsilon(round_off));
   CHECK(none.tilt == 0);
   CHECK(std::isnan(motions.motion(other, points, forces, 0).tilt));
 }

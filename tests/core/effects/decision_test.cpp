@@ -1,11 +1,10 @@
 #include "core/effects/decision.hpp"
 
 #include <catch2/catch.hpp>
-#include <algorithm>
-#include <random>
 #include <set>
 
 #include "core/base/error.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 
@@ -160,10 +159,10 @@ TEST_CASE("A list of effects neither switches whole-surface contact on nor off",
 
 TEST_CASE("Decisions about effects do not depend on the order of their registration", "[core][effects]") {
   EffectList shuffled = registered_effects();
-  std::mt19937 random(1);
+  tests::Random random(1);
   const EffectFacts facts{true, true, {misaligned(), modified()}, true};
   for (int trial = 0; trial < 10; ++trial) {
-    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    random.shuffle(shuffled);
     const EffectDecisions decisions = decide_effects(facts, shuffled), expected = decide_effects(facts);
     REQUIRE(decisions.size() == expected.size());
     for (std::size_t i = 0; i < decisions.size(); ++i) {

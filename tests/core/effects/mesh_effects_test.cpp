@@ -2,12 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <algorithm>
-#include <random>
 #include <string>
 
 #include "core/base/error.hpp"
 #include "core/effects/decision.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
+#include "tests/common/random.hpp"
 #include "tests/core/effects/instruction_count.hpp"
 #include "tests/core/gear/pair_cases.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -120,9 +120,9 @@ TEST_CASE("Results do not depend on the order in which effects are registered", 
   const LoadedCycle expected = scene.run(decisions);
   REQUIRE(expected.usable());
   EffectList shuffled = registered_effects();
-  std::mt19937 random(7);
+  tests::Random random(7);
   for (int trial = 0; trial < 5; ++trial) {
-    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    random.shuffle(shuffled);
     CHECK(bit_identical(scene.run(decisions, mesh_effects(decisions, shuffled)), expected));
   }
 }

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
+#include "tests/common/random.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
@@ -29,24 +29,22 @@ struct LoadCase {
 /// Pairs, flanks, misalignments and torques of all sorts; a quarter of the pairs are spur gears.
 /// @param widest  face width [m_n]
 LoadCase random_case(unsigned seed, double widest = 15.0) {
-  std::mt19937 random(seed);
-  const auto uniform = [&](double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random); };
-  const auto amount = [&](double low, double high) { return uniform(low, high) * units::um; };
-  const auto in_one_of = [&](double share) { return uniform(0.0, 1.0) < share; };
-  const double module = uniform(1.0, 10.0), helix = in_one_of(0.25) ? 0.0 : uniform(5.0, 32.0);
-  const int teeth = static_cast<int>(uniform(17.0, 50.0));
-  LoadCase drawn{mesh_cases::pair(teeth, static_cast<int>(teeth * uniform(1.0, 4.0)), helix, module, module * uniform(4.0, widest)), {}};
+  tests::Random32 random(seed);
+  const auto amount = [&](double low, double high) { return random(low, high) * units::um; };
+  const double module = random(1.0, 10.0), helix = random.chance(0.25) ? 0.0 : random(5.0, 32.0);
+  const int teeth = static_cast<int>(random(17.0, 50.0));
+  LoadCase drawn{mesh_cases::pair(teeth, static_cast<int>(teeth * random(1.0, 4.0)), helix, module, module * random(4.0, widest)), {}};
   FlankCondition& c = drawn.condition;
-  if (in_one_of(0.6)) c.modification.pinion.lead_crowning = amount(2, 15);
-  if (in_one_of(0.4)) c.modification.pinion.addendum_crowning = c.modification.pinion.dedendum_crowning = amount(1, 10);
+  if (random.chance(0.6)) c.modification.pinion.lead_crowning = amount(2, 15);
+  if (random.chance(0.4)) c.modification.pinion.addendum_crowning = c.modification.pinion.dedendum_crowning = amount(1, 10);
   for (Modification* modification : {&c.modification.pinion, &c.modification.wheel}) {
-    if (!in_one_of(0.4)) continue;
-    const ReliefShape shape = in_one_of(0.5) ? ReliefShape::Linear : ReliefShape::Parabolic;
-    modification->tip_relief = {amount(3, 30), module * uniform(0.2, 0.6), shape};
+    if (!random.chance(0.4)) continue;
+    const ReliefShape shape = random.chance(0.5) ? ReliefShape::Linear : ReliefShape::Parabolic;
+    modification->tip_relief = {amount(3, 30), module * random(0.2, 0.6), shape};
   }
-  if (in_one_of(0.7)) c.misalignment.mesh_misalignment = amount(-20, 20);
-  if (in_one_of(0.3)) c.error.pinion.helix_slope = amount(-8, 8);
-  drawn.torque = mesh_cases::torque_for(drawn.gears, module * uniform(4.0, 40.0));
+  if (random.chance(0.7)) c.misalignment.mesh_misalignment = amount(-20, 20);
+  if (random.chance(0.3)) c.error.pinion.helix_slope = amount(-8, 8);
+  drawn.torque = mesh_cases::torque_for(drawn.gears, module * random(4.0, 40.0));
   return drawn;
 }
 

@@ -5,8 +5,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <vector>
+
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 
@@ -45,8 +46,8 @@ SplineFit interpolating_spline(const GridSamples& samples) {
 
 /// Random samples on the uneven grid: a surface with all derivatives in action.
 GridSamples rough_samples() {
-  std::mt19937 random(7);
-  return sample(uneven_u, uneven_v, [&](double, double) { return static_cast<double>(random()) / 2147483648.0 - 1.0; });
+  tests::Random32 random(7);
+  return sample(uneven_u, uneven_v, [&](double, double) { return random.coarse(-1.0, 1.0); });
 }
 
 double largest_difference(const Jet& a, const Jet& b) {
@@ -258,10 +259,10 @@ TEST_CASE("A fit with fewer pieces is the orthogonal projection of the samples",
 
 TEST_CASE("Every allowed number of pieces determines the fit", "[core][flank][spline][least-squares]") {
   const auto f = [](double u, double v) { return bicubic(u, v, 3, 1).value; };
-  std::mt19937 random(3);
+  tests::Random32 random(3);
   for (int n = 4; n <= 40; ++n) {
     Points u{0.0};
-    while (u.size() < static_cast<std::size_t>(n)) u.push_back(u.back() + 0.3 + static_cast<double>(random() % 1000) / 1000.0);
+    while (u.size() < static_cast<std::size_t>(n)) u.push_back(u.back() + 0.3 + 0.001 * static_cast<double>(random.below(1000)));
     for (double& x : u) x *= 4.0 / u.back();
     const GridSamples samples = sample(u, {0.0, 1.0}, f);
     for (int pieces = 1; pieces <= most_spline_pieces(n); ++pieces) {

@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
+#include "tests/common/random.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -138,12 +138,11 @@ TEST_CASE("The rotation through a point undoes the flank's own parametrisation",
   error.profile_slope = -0.008;
   error.cumulative_pitch = {0.0, 0.004, -0.003};
   const Flank flank = make_flank(pair, member, strong_modification(shape), error);
-  std::mt19937 generator(20250101);
-  const auto uniform = [&generator](double from, double to) { return from + (to - from) * static_cast<double>(generator()) / 4294967296.0; };
+  tests::Random random(20250101);
   for (int i = 0; i < 2000; ++i) {
-    const double rho = uniform(flank.lowest_roll() + 0.1, flank.highest_roll());
-    const double z = uniform(-flank.face.half(), flank.face.half()), rotation = uniform(-0.5, 0.5);
-    const int tooth = static_cast<int>(uniform(-3.0, 4.0));
+    const double rho = random(flank.lowest_roll() + 0.1, flank.highest_roll());
+    const double z = random(-flank.face.half(), flank.face.half()), rotation = random(-0.5, 0.5);
+    const int tooth = static_cast<int>(random(-3.0, 4.0));
     const Point3<double> p = flank_point(flank, rho, z, tooth, rotation);
     const FlankThroughPoint<double> found = rotation_through(flank, p, tooth);
     if (std::abs(found.rotation - rotation) > kRoundOff) {

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
 #include "core/flank/flank.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/common/random.hpp"
 #include "tests/core/gear/pair_cases.hpp"
 
 using namespace flankwright;
@@ -184,10 +184,9 @@ TEST_CASE("Fewer pieces smooth noise: the residual is the noise, the surface clo
           "[core][flank][grid][least-squares]") {
   const GearPair pair = real_pair();
   const Deviation truth = [&](double r, double z) { return smooth_deviation(pair, r, z); };
-  std::mt19937 random(11);
-  std::normal_distribution<double> noise(0.0, 1.0 * um);
+  tests::Random32 random(11);
   MeasuredGrid grid = paper_grid(pair, truth);
-  for (double& delta : grid.deviation.reshaped()) delta += noise(random);
+  for (double& delta : grid.deviation.reshaped()) delta += um * random.normal();
   const GridFit through = fit_on(pair, grid), smooth = fit_on(pair, grid, {.profile_pieces = 2, .face_pieces = 2});
   // 5 x 5 B-splines take 25 of the 135 degrees of freedom; scatter of a standard deviation from 110 others: 7 %.
   CHECK(smooth.rms == Approx(std::sqrt(110.0 / 135.0) * um).epsilon(0.2));
@@ -232,8 +231,8 @@ TEST_CASE("A grid that is not one is refused, and why is said", "[core][flank][g
 
 TEST_CASE("A grid whose steps differ ten to one still passes through its points", "[core][flank][grid]") {
   MeasuredGrid grid{{50.1, 50.2, 51.2, 52.2, 52.3, 53.3}, {-10.0, -9.0, 0.0, 0.9, 1.8, 10.8}, Eigen::MatrixXd(6, 6)};
-  std::mt19937 random(2);
-  for (double& delta : grid.deviation.reshaped()) delta = um * static_cast<double>(random() % 100) / 100.0;
+  tests::Random32 random(2);
+  for (double& delta : grid.deviation.reshaped()) delta = 0.01 * um * static_cast<double>(random.below(100));
   // Round-off of what the spline swings to between points of such noise, up to 1000 times as far.
   CHECK(make_grid_field(grid, 50.0, 0.3).largest <= 1000.0 * grid_round_off);
 }

@@ -2,10 +2,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "core/gear/rack_envelope.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 using units::deg;
@@ -83,13 +83,12 @@ TEST_CASE("At the spur limit the curvatures of rack and rolling meet", "[core][g
 }
 
 TEST_CASE("Accepted tools of revolution generate the whole flank", "[core][gear]") {
-  std::mt19937 generator(20260501);
-  const auto uniform = [&generator](double from, double to) { return from + (to - from) * static_cast<double>(generator()) / 4294967296.0; };
+  tests::Random32 random(20260501);
   int accepted = 0;
   for (int i = 0; i < 300; ++i) {
-    PairData data = data_of(static_cast<int>(uniform(14, 60)), 0.0);
-    data.pinion.profile_shift = data.pinion.teeth < 20 ? 0.3 : uniform(-0.2, 0.4);
-    const RevolutionTool tool{uniform(30, 89) * deg, std::exp(uniform(0.0, 5.0)), std::exp(uniform(2.0, 10.0))};
+    PairData data = data_of(static_cast<int>(random.coarse(14, 60)), 0.0);
+    data.pinion.profile_shift = data.pinion.teeth < 20 ? 0.3 : random.coarse(-0.2, 0.4);
+    const RevolutionTool tool{random.coarse(30, 89) * deg, std::exp(random.coarse(0.0, 5.0)), std::exp(random.coarse(2.0, 10.0))};
     data.pinion.generation = tool;
     if (!find_problems(data).empty()) continue;
     ++accepted;

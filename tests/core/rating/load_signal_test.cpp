@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
-#include <random>
 
 #include "core/base/error.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 
@@ -126,16 +126,14 @@ TEST_CASE("Blocks of constant torque are their own bins", "[core][rating][life]"
 
 TEST_CASE("Time and revolutions of a signal are conserved, whatever it does", "[core][rating][life]") {
   constexpr double round_off = 1e-11;
-  std::mt19937 generator(3);
-  std::normal_distribution<double> torque(100.0, 200.0), speed(0.0, 50.0);
-  std::uniform_real_distribution<double> step(1e-4, 2.0);
+  tests::Random random(3);
   for (const int ranges : {1, 3, 20, 200}) {
     LoadSignal signal;
     double t = -5.0, revolutions = 0.0, reversed = 0.0;
     for (int i = 0; i < 500; ++i) {
-      signal.time.push_back(t += step(generator));
-      signal.torque.push_back(torque(generator));
-      signal.speed.push_back(speed(generator));
+      signal.time.push_back(t += random(1e-4, 2.0));
+      signal.torque.push_back(100.0 + 200.0 * random.normal());
+      signal.speed.push_back(50.0 * random.normal());
       if (i == 0) continue;
       const auto at = [&](const std::vector<double>& of, int back) { return of[of.size() - 1 - static_cast<std::size_t>(back)]; };
       const double dt = at(signal.time, 0) - at(signal.time, 1), a = at(signal.torque, 1), b = at(signal.torque, 0);

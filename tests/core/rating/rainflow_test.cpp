@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
-#include <random>
 
 #include "core/base/units.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 
@@ -19,10 +19,9 @@ std::map<double, double> counts_by_range(const std::vector<RainflowCycle>& cycle
 }
 
 std::vector<double> random_history(std::size_t length, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_int_distribution<int> value(-9, 9);
+  tests::Random32 random(seed);
   std::vector<double> history(length);
-  for (double& v : history) v = value(generator);
+  for (double& v : history) v = random.integer(-9, 9);
   return history;
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("Where no design keeps the limits, what would help brings the gain tha
   const DesignResult found = optimise_design(problem, SolverOptions{});
   REQUIRE(found.status == SolverStatus::Infeasible);
   const Relaxation relaxation = find_relaxation(problem, found.after.analysis.modification, found.after.variables);
-  CHECK(relaxation.excess == Approx(problem.violation(found.after.analysis)));
+  CHECK(relaxation.excess == Approx(problem.violation(found.after.analysis)).epsilon(1e-5));  // two analyses of one design
 
   // Both scenes are alike but for the side of the misalignment.
   REQUIRE(relaxation.limits.size() == 2);
@@ -87,7 +87,7 @@ TEST_CASE("Amounts that the design gives no extent are spread by the rules of th
   const auto end_relief =
       std::ranges::find(relaxation.moves, "pinion.modification.end_relief.amount", [](const Relaxation::Move& m) { return m.parameter.name; });
   REQUIRE(end_relief != relaxation.moves.end());
-  CHECK(end_relief->extent == Approx(4.0));  // the smaller of 0.1 b and m_n
+  CHECK(end_relief->extent == Approx(4.0).epsilon(1e-14));  // the smaller of 0.1 b and m_n; round-off
   CHECK_FALSE(end_relief->moves_bound());
 }
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
 #include "core/base/stopwatch.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -30,43 +30,42 @@ class IndustrialPairs {
   /// Draws the gears without what is ground.
   Gears draw_gears() {
     Gears gears;
-    gears.module = std::exp(uniform(0.0, std::log(12.0)));
-    const int teeth = static_cast<int>(uniform(14, 45)), wheel_teeth = std::min(120, static_cast<int>(teeth * uniform(1.0, 4.5)));
-    const double helix = one_in(5) ? 0.0 : uniform(5.0, 34.0), width = gears.module * uniform(6.0, 20.0);
-    const double height = one_in(3) ? uniform(0.0, 1.0) : 0.0;  // between the two racks [-]
+    gears.module = std::exp(random_(0.0, std::log(12.0)));
+    const int teeth = static_cast<int>(random_(14, 45)), wheel_teeth = std::min(120, static_cast<int>(teeth * random_(1.0, 4.5)));
+    const double helix = one_in(5) ? 0.0 : random_(5.0, 34.0), width = gears.module * random_(6.0, 20.0);
+    const double height = one_in(3) ? random_(0.0, 1.0) : 0.0;  // between the two racks [-]
     const double reference = teeth * gears.module / std::cos(helix * units::deg), ratio = static_cast<double>(wheel_teeth) / teeth;
     gears.torque_per_k = width * reference * reference / 2 * ratio / (ratio + 1) * 1e-3;
     const std::string rack = fmt::format("rack = {{ addendum = {}, dedendum = {}, root_radius = {} }}\n", 1.0 + 0.4 * height, 1.25 + 0.35 * height,
                                          height > 0.0 ? 0.2 : 0.38);
     gears.text = fmt::format("task = \"analyse\"\n[pair]\nnormal_module = {}\npressure_angle = 20\nhelix_angle = {}\n", gears.module, helix);
-    gears.text += fmt::format("[pinion]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", teeth, width, uniform(0.0, 0.4), rack);
-    gears.text += fmt::format("[wheel]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", wheel_teeth, width, uniform(-0.2, 0.2), rack);
+    gears.text += fmt::format("[pinion]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", teeth, width, random_(0.0, 0.4), rack);
+    gears.text += fmt::format("[wheel]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", wheel_teeth, width, random_(-0.2, 0.2), rack);
     return gears;
   }
 
   /// A study of these gears: draws what is ground, the misalignment and the load.
   std::string study(const Gears& gears, const std::string& compliance) {
     const double size = 1.0 + 0.25 * gears.module;                            // what is ground grows with the gear [-]
-    const double k_factor = std::exp(uniform(std::log(0.8), std::log(9.0)));  // F/(b d) (u + 1)/u [MPa]
+    const double k_factor = std::exp(random_(std::log(0.8), std::log(9.0)));  // F/(b d) (u + 1)/u [MPa]
     std::string text = gears.text;
     for (const char* gear : {"pinion", "wheel"}) {
       text += fmt::format("[{}.modification]\n", gear);
-      if (one_in(2)) text += fmt::format("lead_crowning = {}\n", uniform(2.0, 6.0 * size));
-      if (one_in(3)) text += fmt::format("profile_crowning = {}\n", uniform(1.0, 4.0 * size));
+      if (one_in(2)) text += fmt::format("lead_crowning = {}\n", random_(2.0, 6.0 * size));
+      if (one_in(3)) text += fmt::format("profile_crowning = {}\n", random_(1.0, 4.0 * size));
       if (one_in(2)) {
-        text += fmt::format("tip_relief = {{ amount = {}, height = {}, shape = \"{}\" }}\n", uniform(3.0, 10.0 * size),
-                            gears.module * uniform(0.2, 0.6), one_in(2) ? "linear" : "parabolic");
+        text += fmt::format("tip_relief = {{ amount = {}, height = {}, shape = \"{}\" }}\n", random_(3.0, 10.0 * size),
+                            gears.module * random_(0.2, 0.6), one_in(2) ? "linear" : "parabolic");
       }
     }
-    text += fmt::format("[misalignment]\nmesh_misalignment = {}\n[load]\ntorque = {}\n", uniform(-8.0, 8.0) * size, k_factor * gears.torque_per_k);
+    text += fmt::format("[misalignment]\nmesh_misalignment = {}\n[load]\ntorque = {}\n", random_(-8.0, 8.0) * size, k_factor * gears.torque_per_k);
     return text + fmt::format("[cycle]\npeaks = \"refined\"\n[fidelity]\ncompliance = \"{}\"\neffect_sizes = \"off\"\n", compliance);
   }
 
  private:
-  double uniform(double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random_); }
-  bool one_in(int n) { return uniform(0.0, n) < 1.0; }
+  bool one_in(int n) { return random_.chance(1.0 / n); }
 
-  std::mt19937 random_;
+  tests::Random32 random_;
 };
 
 struct Shown {

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "core/load/cycle/cycle_figures.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -12,11 +12,10 @@ namespace {
 
 /// A pair within the library of fits: spur or helical, crowned and misaligned as may be.
 std::string random_pair(unsigned seed) {
-  std::mt19937 random(seed);
-  const auto uniform = [&](double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random); };
-  const double helix = uniform(0.0, 1.0) < 0.3 ? 0.0 : uniform(5.0, 30.0), face = uniform(5.0, 9.0);
-  const int pinion = static_cast<int>(uniform(17.0, 40.0)), wheel = static_cast<int>(uniform(40.0, 80.0));
-  const double shift = uniform(-0.2, 0.4), crowning = uniform(0.0, 10.0), misalignment = uniform(-15.0, 15.0), torque = uniform(1.0, 8.0);
+  tests::Random32 random(seed);
+  const double helix = random.chance(0.3) ? 0.0 : random(5.0, 30.0), face = random(5.0, 9.0);
+  const int pinion = static_cast<int>(random(17.0, 40.0)), wheel = static_cast<int>(random(40.0, 80.0));
+  const double shift = random(-0.2, 0.4), crowning = random(0.0, 10.0), misalignment = random(-15.0, 15.0), torque = random(1.0, 8.0);
   const auto key = [](const char* name, double value) { return name + std::string(" = ") + std::to_string(value) + "\n"; };
   return "[pair]\nnormal_module = 1\n" + key("helix_angle", helix) + "[pinion]\nteeth = " + std::to_string(pinion) + "\n" +
          key("profile_shift", shift) + key("face_width", face) + key("modification.lead_crowning", 0.1 * crowning) +

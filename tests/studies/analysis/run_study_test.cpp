@@ -138,7 +138,7 @@ TEST_CASE("Positions chosen automatically, and peaks sampled, are said in the re
   CHECK(chosen["loaded"][0]["summary"]["peaks"].is_null());
   CHECK(chosen["loaded"][0]["summary"]["load_factors"].is_null());
   CHECK(chosen["loaded"][0]["summary"]["iso6336"]["K_Hbeta"] == 1.0);
-  CHECK(chosen["loaded"][1]["summary"]["iso6336"]["F_beta_y_um"] == Approx(12));
+  CHECK(chosen["loaded"][1]["summary"]["iso6336"]["F_beta_y_um"] == Approx(12).epsilon(1e-10));  // round-off of the gap at both ends
 }
 
 TEST_CASE("results.json of an optimisation has every key that it promises", "[studies][results]") {
@@ -246,7 +246,7 @@ TEST_CASE("Given repeats the study's keys, and used has all settings", "[studies
   for (const json& given : results["given"]) has_positions = has_positions || given["key"] == "cycle.positions";
   CHECK(has_positions);
   CHECK(results["used"]["cycle"]["positions"] == 5);
-  CHECK(results["used"]["pair"]["pressure_angle_deg"].get<double>() == Approx(20.0));
+  CHECK(results["used"]["pair"]["pressure_angle_deg"].get<double>() == Approx(20.0).epsilon(1e-14));  // round-off
   CHECK(results["loaded"][0]["cycle"].size() == 5);
 }
 
@@ -257,8 +257,9 @@ TEST_CASE("Misaligned over the whole surface, a pair without errors has load fac
       "torque = 300\n[cycle]\npositions = 8\n[fidelity]\ngap = \"whole_surface\"\ncompliance = \"thin_slice\"\nquadrature = { intervals = 4 }\n");
   const json& factors = results["loaded"][0]["summary"]["load_factors"]["without_spikes"];
   CHECK(factors["K_Hbeta"].get<double>() > 1.05);
-  CHECK(factors["K_Halpha"].get<double>() == Approx(1.0));
-  CHECK(factors["K_H"].get<double>() == Approx(factors["K_Hbeta"].get<double>()));
+  constexpr double of_two_cycles = 1e-5;  // solver: the same loads found once more, and their peak
+  CHECK(factors["K_Halpha"].get<double>() == Approx(1.0).epsilon(of_two_cycles));
+  CHECK(factors["K_H"].get<double>() == Approx(factors["K_Hbeta"].get<double>()).epsilon(of_two_cycles));
 }
 
 TEST_CASE("A rigid study ignores its torques, with a note", "[studies][run]") {

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
-#include <random>
 
 #include "core/fidelity/discretisation.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -34,13 +34,11 @@ torque = 126.45
 
 /// Pairs, flanks, misalignments and torques of all sorts; a quarter of the pairs are spur gears.
 std::string random_scene(unsigned seed) {
-  std::mt19937 random(seed);
-  const auto uniform = [&](double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random); };
-  const double module = uniform(1.0, 6.0), helix = uniform(0.0, 1.0) < 0.25 ? 0.0 : uniform(5.0, 30.0), face = module * uniform(4.0, 10.0);
-  const int pinion = static_cast<int>(uniform(17.0, 45.0)), wheel = static_cast<int>(pinion * uniform(1.0, 3.0));
-  const double shift = uniform(-0.2, 0.3), height = module * uniform(0.25, 0.5),
-               load = uniform(5.0, 25.0);  // load: N/mm^2, force over face and module
-  const double lead = uniform(0.0, 12.0), relief = uniform(0.0, 25.0), profile = uniform(0.0, 10.0), tilt = uniform(-20.0, 20.0);
+  tests::Random32 random(seed);
+  const double module = random(1.0, 6.0), helix = random.chance(0.25) ? 0.0 : random(5.0, 30.0), face = module * random(4.0, 10.0);
+  const int pinion = static_cast<int>(random(17.0, 45.0)), wheel = static_cast<int>(pinion * random(1.0, 3.0));
+  const double shift = random(-0.2, 0.3), height = module * random(0.25, 0.5), load = random(5.0, 25.0);  // load: N/mm^2, force over face and module
+  const double lead = random(0.0, 12.0), relief = random(0.0, 25.0), profile = random(0.0, 10.0), tilt = random(-20.0, 20.0);
   std::string text = "[pair]\n" + key("normal_module", module) + key("helix_angle", helix);
   text += "[pinion]\nteeth = " + std::to_string(pinion) + "\n" + key("face_width", face) + key("profile_shift", shift);
   text += key("modification.lead_crowning", lead);

@@ -165,8 +165,8 @@ TEST_CASE("A designed parabola is judged in every scene; where it does not hold 
   const auto check = [&](int scene) { return found["unloaded_scenes"][scene]["parabolic_te"]; };
   CHECK(check(0)["holds"] == true);
   CHECK(check(0)["why"] == "");
-  CHECK(check(0)["wanted_arcsec_per_deg2"].get<double>() == Approx(0.1));
-  CHECK(check(0)["found_arcsec_per_deg2"].get<double>() == Approx(0.1).epsilon(1e-4));  // model, as above
+  CHECK(check(0)["wanted_arcsec_per_deg2"].get<double>() == Approx(0.1).epsilon(1e-12));  // round-off
+  CHECK(check(0)["found_arcsec_per_deg2"].get<double>() == Approx(0.1).epsilon(1e-4));    // model, as above
   CHECK(std::abs(check(0)["shift_deg"].get<double>()) < 1e-3);
   CHECK(check(1)["holds"] == true);
   CHECK(check(1)["found_arcsec_per_deg2"].get<double>() == Approx(0.1).epsilon(0.01));  // model: second order in the misalignment
@@ -198,7 +198,7 @@ TEST_CASE("A thicker marking compound marks more of both flanks", "[studies][res
   for (const char* thickness : {"2", "6.35", "20"}) {
     const json results = results_of(parabola_study, {{"unloaded.marking_thickness", thickness}});
     const json& pattern = results["unloaded"]["bearing_pattern"];
-    CHECK(pattern["marking_thickness_um"].get<double>() == Approx(std::stod(thickness)));
+    CHECK(pattern["marking_thickness_um"].get<double>() == Approx(std::stod(thickness)).epsilon(1e-14));  // round-off
     CHECK(pattern["pinion"]["covered_percent"] > last_pinion);
     CHECK(pattern["wheel"]["covered_percent"] > last_wheel);
     last_pinion = pattern["pinion"]["covered_percent"];
@@ -234,9 +234,9 @@ TEST_CASE("A flank that is too thin everywhere shifts the transmission error and
     return map[map.size() / 2][map[0].size() / 2].get<double>();
   };
   CHECK(removed_in_the_middle(nominal) == Approx(0.0).margin(round_off));
-  CHECK(removed_in_the_middle(thin) == Approx(10.0 / std::cos(base_helix)));
-  CHECK(thin["modifications"][0]["removal_um"].back().back().get<double>() ==
-        Approx(nominal["modifications"][0]["removal_um"].back().back().get<double>() + 10.0 / std::cos(base_helix)));
+  CHECK(std::abs(removed_in_the_middle(thin) - 10.0 / std::cos(base_helix)) <= round_off);
+  const auto removed_at_the_corner = [](const json& results) { return results["modifications"][0]["removal_um"].back().back().get<double>(); };
+  CHECK(std::abs(removed_at_the_corner(thin) - removed_at_the_corner(nominal) - 10.0 / std::cos(base_helix)) <= round_off);
 
   const json& used = thin["used"]["pair"]["pinion"]["grid"];
   CHECK(used["file"] == "thin.csv");

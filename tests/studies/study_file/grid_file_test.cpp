@@ -5,7 +5,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <filesystem>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "core/base/units.hpp"
 #include "core/flank/measured_grid.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -86,9 +86,9 @@ TEST_CASE("The order of the rows changes no bit", "[studies][grid-file][determin
   std::vector<std::string> rows = small_rows;
   rows[1] = "50,-0,-0";
   const MeasuredGrid grid = parse_grid(header + joined(rows), "a");
-  std::mt19937 random(5);
+  tests::Random random(5);
   for (int run = 0; run < 10; ++run) {
-    std::shuffle(rows.begin(), rows.end(), random);
+    random.shuffle(rows);
     const MeasuredGrid other = parse_grid(header + joined(rows), "a");
     CHECK(other.radii == grid.radii);
     CHECK(other.z == grid.z);
@@ -184,14 +184,13 @@ TEST_CASE("A grid file that cannot be read is one clear line", "[studies][grid-f
 }
 
 TEST_CASE("No damage to a grid file makes the reader fail otherwise than with errors", "[studies][grid-file][fuzz]") {
-  std::mt19937 random(20261121);
-  const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  tests::Random32 random(20261121);
   const std::vector<std::string> pieces{",", ";", "\t", "\n", "\r", "#", "-", "1e308", "nan", "0", "\xef\xbb\xbf", "\xc3", "z_mm"};
   int valid = 0;
   for (int run = 0; run < 3000; ++run) {
     std::string text = header + joined(small_rows);
-    for (std::size_t changes = below(4); changes > 0; --changes) {
-      text.replace(below(text.size()), below(3), pieces[below(pieces.size())]);
+    for (std::size_t changes = random.below(4); changes > 0; --changes) {
+      text.replace(random.below(text.size()), random.below(3), random.one_of(pieces));
     }
     try {
       const MeasuredGrid grid = parse_grid(text, "mutated.csv");

@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "studies/study_file/study_file.hpp"
 #include "studies/tasks/study_template.hpp"
+#include "tests/common/random.hpp"
 
 using namespace flankwright::studies;
 
@@ -23,8 +23,7 @@ void read_anything(const std::string& text, const std::vector<Override>& overrid
 }  // namespace
 
 TEST_CASE("No damage to a study file makes the reader fail otherwise than with errors", "[studies][fuzz]") {
-  std::mt19937 random(20260611);
-  const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  flankwright::tests::Random32 random(20260611);
   const std::vector<std::string> pieces{"[",
                                         "]",
                                         "{",
@@ -60,28 +59,28 @@ TEST_CASE("No damage to a study file makes the reader fail otherwise than with e
     text.replace(text.find(fitted), fitted.size(), "compliance = \"thin_slice\"");
   }
   for (int run = 0; run < 600; ++run) {
-    std::string text = templates[below(2)];
-    const std::size_t changes = 1 + below(4);
+    std::string text = random.one_of(templates);
+    const std::size_t changes = 1 + random.below(4);
     for (std::size_t change = 0; change < changes; ++change) {
-      const std::size_t at = below(text.size());
-      const std::size_t length = 1 + below(12);
-      switch (below(5)) {
+      const std::size_t at = random.below(text.size());
+      const std::size_t length = 1 + random.below(12);
+      switch (random.below(5)) {
         case 0:
-          text[at] = static_cast<char>(random() & 0xffU);
+          text[at] = static_cast<char>(random.below(256));
           break;
         case 1:
           text.erase(at, length);
           break;
         case 2:
-          text.insert(at, pieces[below(pieces.size())]);
+          text.insert(at, random.one_of(pieces));
           break;
         case 3:
-          text.insert(at, text.substr(below(text.size()), length));
+          text.insert(at, text.substr(random.below(text.size()), length));
           break;
         default: {
           // A number for a number: the mutation that the parser itself cannot catch.
           const std::size_t digit = text.find_first_of("0123456789", at);
-          if (digit != std::string::npos) text.replace(digit, 1, pieces[below(pieces.size())]);
+          if (digit != std::string::npos) text.replace(digit, 1, random.one_of(pieces));
         }
       }
     }

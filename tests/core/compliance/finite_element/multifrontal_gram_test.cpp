@@ -38,7 +38,7 @@ TEST_CASE("An elimination that keeps no factor has the Gram matrix of one that d
   CHECK(at_once.gram == at_once.gram.transpose());
   CHECK(at_once.factor_entries == static_cast<double>(factor.factor_entries()));
   CHECK(std::ranges::is_sorted(progress));
-  CHECK(progress.back() == Approx(1));
+  CHECK(progress.back() == Approx(1).epsilon(1e-12));  // round-off of the sum of all fronts
   CHECK(multifrontal_gram(Eigen::SparseMatrix<double>(lattice.lower), lattice.node_of, loads.leftCols(0), kUnlimited).gram.size() == 0);
 }
 

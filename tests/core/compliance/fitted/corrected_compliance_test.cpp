@@ -7,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/compliance/fitted/fitted_compliance.hpp"
 #include "core/compliance/fitted/correction_library.hpp"
+#include "tests/common/random.hpp"
 #include "tests/core/compliance/fitted/random_gear.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
@@ -14,7 +15,7 @@ using namespace flankwright;
 using namespace flankwright::testing;
 
 TEST_CASE("A refined compliance adds to a tooth, not between teeth, and does no negative work", "[core][compliance][fitted]") {
-  std::mt19937 random(11);
+  tests::Random32 random(11);
   const GearProportions gear = helical_gear();
   const KernelForm form = KernelForm::several_teeth();
   FitRecord record;

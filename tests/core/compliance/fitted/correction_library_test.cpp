@@ -7,6 +7,7 @@
 #include "core/base/units.hpp"
 #include "core/compliance/fitted/kernel_sum.hpp"
 #include "core/compliance/fitted/correction_fit.hpp"
+#include "tests/common/random.hpp"
 #include "tests/core/compliance/fitted/random_gear.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
@@ -71,7 +72,7 @@ TEST_CASE("The library's fits have a covariance, positive definite but for its r
 
 TEST_CASE("Mirrored coefficients are the same kernels seen from the other end", "[core][compliance][fitted]") {
   const KernelForm form = GENERATE(KernelForm::correction(), KernelForm::several_teeth());
-  std::mt19937 random(3);
+  tests::Random32 random(3);
   const GearProportions gear = helical_gear();
   const std::vector<double> x = random_coefficients(form, random);
   const std::vector<FlankStation> stations = random_stations(20, gear.relative_face, -1, 1, random);
@@ -95,11 +96,9 @@ TEST_CASE("Between its entries the library neither overshoots nor does negative 
     least = std::min(least, middle_of(entry.gear));
     most = std::max(most, middle_of(entry.gear));
   }
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> share(0, 1);
+  tests::Random32 random(7);
   for (int i = 0; i < 40; ++i) {
-    const GearProportions gear{static_cast<int>(1 / (1.0 / 12 + (1.0 / 150 - 1.0 / 12) * share(random))), 35 * deg * share(random),
-                               2 + 28 * share(random), -0.4 + share(random)};
+    const GearProportions gear{static_cast<int>(1 / random(1.0 / 12, 1.0 / 150)), random(0, 35) * deg, random(2, 30), random(-0.4, 0.6)};
     CAPTURE(gear.teeth, gear.helix_angle / deg, gear.relative_face, gear.profile_shift);
     // A smooth quantity stays near the range of its nodes.
     CHECK(middle_of(gear) > 0.5 * least);

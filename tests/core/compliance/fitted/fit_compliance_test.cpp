@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "tests/common/random.hpp"
 #include "tests/core/compliance/fitted/random_gear.hpp"
 #include "tests/core/compliance/fitted/synthetic_gear.hpp"
 #include "core/compliance/fitted/thesis_form.hpp"
@@ -39,11 +40,11 @@ double distance(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 TEST_CASE("A compliance of the form itself is found again from its values", "[core][compliance][fitted]") {
-  std::mt19937 random(1);
+  tests::Random32 random(1);
   const KernelForm form = small_form();
   const SyntheticGear grid(helical_gear());
   std::vector<double> x = flat_start(form, std::vector{grid.sample(grid.grid(4, 8))});
-  for (double& c : x) c += 0.1 * std::uniform_real_distribution<double>(-1, 1)(random);
+  for (double& c : x) c += random(-0.1, 0.1);
   const FittedCompliance truth(form, helical_gear(), x, {{-1, 1, 0, 12, 0}, {}, {}});
   const InfluenceSample sample = sample_of(truth, grid.grid(5, 12)), unseen = sample_of(truth, grid.grid(3, 9));
 

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
+#include "tests/common/random.hpp"
 #include "tests/core/compliance/fitted/random_gear.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
@@ -13,7 +14,7 @@ using namespace flankwright::testing;
 
 namespace {
 
-FittedCompliance any_fit(std::mt19937& random) {
+FittedCompliance any_fit(tests::Random32& random) {
   KernelForm form = KernelForm::several_teeth();
   form.bodies.push_back({3, Coupling::Turning});
   const std::vector<double> x = random_coefficients(form, random);
@@ -25,7 +26,7 @@ FittedCompliance any_fit(std::mt19937& random) {
 }  // namespace
 
 TEST_CASE("The fitted matrix is exactly symmetric, and the same bits in any order of points", "[core][compliance][fitted]") {
-  std::mt19937 random(3);
+  tests::Random32 random(3);
   const FittedCompliance fit = any_fit(random);
   std::vector<FlankStation> stations = random_stations(60, 12, -2, 2, random);
   const Eigen::MatrixXd K = fit.evaluate(stations);
@@ -36,7 +37,7 @@ TEST_CASE("The fitted matrix is exactly symmetric, and the same bits in any orde
 }
 
 TEST_CASE("A fit goes into a table of names and numbers, each name once", "[core][compliance][fitted]") {
-  std::mt19937 random(4);
+  tests::Random32 random(4);
   const FittedCompliance fit = any_fit(random);
   const FitTable table = fit.to_table();
   REQUIRE(table.names.size() == table.values.size());
@@ -58,7 +59,7 @@ TEST_CASE("A fit goes into a table of names and numbers, each name once", "[core
 }
 
 TEST_CASE("A fit refuses points outside its domain, and reports those beyond its sample", "[core][compliance][fitted]") {
-  std::mt19937 random(5);
+  tests::Random32 random(5);
   const FittedCompliance fit = any_fit(random);
   const std::vector<FlankStation> inside{{0, 0, 6}, {4, 0.9, 0.25}}, edge{{0, 1, 6}}, off{{0, 0, 12.01}}, above{{0, 1.1, 6}},
       apart{{0, 0, 6}, {5, 0, 6}};
@@ -80,13 +81,13 @@ TEST_CASE("Coefficients of a form have names of their own, as many as there are"
     CHECK(form.tooth_count() + form.body_count() == form.count());
   }
   // A form that says nothing of two teeth may not claim to.
-  std::mt19937 random(6);
+  tests::Random32 random(6);
   const KernelForm form = KernelForm::one_tooth();
   CHECK_THROWS_AS(FittedCompliance(form, helical_gear(), random_coefficients(form, random), {{-1, 1, 0, 12, 1}, {}, {}}), InvalidInput);
 }
 
 TEST_CASE("Blends of two gears' coefficients stay positive semi-definite", "[core][compliance][fitted]") {
-  std::mt19937 random(8);
+  tests::Random32 random(8);
   const KernelForm form = KernelForm::several_teeth();
   const std::vector<double> a = random_coefficients(form, random), b = random_coefficients(form, random);
   std::vector<double> blend(a.size());

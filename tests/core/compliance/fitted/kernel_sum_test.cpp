@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/common/random.hpp"
 #include "tests/core/compliance/fitted/random_gear.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
@@ -27,7 +28,7 @@ double smallest_over_largest(const Eigen::MatrixXd& K) {
 
 TEST_CASE("The matrix over any points of five teeth is symmetric and positive semi-definite, whatever the coefficients",
           "[core][compliance][fitted]") {
-  std::mt19937 random(GENERATE(1u, 2u, 3u, 4u, 5u));
+  tests::Random32 random(GENERATE(1u, 2u, 3u, 4u, 5u));
   const KernelForm form = everything();
   const GearProportions gear = helical_gear();
   KernelSum sum(form, gear, random_stations(200, gear.relative_face, -2, 2, random));
@@ -39,7 +40,7 @@ TEST_CASE("The matrix over any points of five teeth is symmetric and positive se
 }
 
 TEST_CASE("Pair by pair and as a matrix the kernels are the same, and their derivatives are those of differences", "[core][compliance][fitted]") {
-  std::mt19937 random(7);
+  tests::Random32 random(7);
   const KernelForm form = everything();
   const GearProportions gear = helical_gear();
   const std::vector<FlankStation> stations = random_stations(12, gear.relative_face, -1, 2, random);
@@ -115,7 +116,7 @@ TEST_CASE("The body twists as a shaft in torsion", "[core][compliance][fitted][c
 }
 
 TEST_CASE("The compliance is smooth where a point passes the load", "[core][compliance][fitted]") {
-  std::mt19937 random(11);
+  tests::Random32 random(11);
   const KernelForm form = everything();
   const double h = 1e-4;
   const std::vector<FlankStation> stations{{0, 0.1, 5}, {0, 0.1, 5 - h}, {0, 0.1, 5 + h}, {0, 0.1 - h, 5}, {0, 0.1 + h, 5}};

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <random>
 
+#include "tests/common/random.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
 using namespace flankwright;
@@ -134,14 +134,13 @@ TEST_CASE("Loads that act together are the sum of their parts", "[core][complian
 }
 
 TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does not depend on where it is cut", "[core][compliance][shaft]") {
-  std::mt19937 random(7);
-  const auto between_ = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  tests::Random32 random(7);
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<BeamPiece> pieces, cut;
     double length = 0.0;
     for (int i = 0; i < 4; ++i) {
-      const double s = std::pow(10.0, between_(-1.0, 1.0));
-      const BeamPiece one{between_(10, 120), s * s / EI, s / kGA, s * s / GJ, s / EA};
+      const double s = std::pow(10.0, random(-1.0, 1.0));
+      const BeamPiece one{random(10, 120), s * s / EI, s / kGA, s * s / GJ, s / EA};
       pieces.push_back(one);
       for (double share : {0.3, 0.7}) {
         cut.push_back(one);
@@ -150,14 +149,14 @@ TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does 
       length += one.length;
     }
     std::vector<BeamSupport> supports;
-    hold(supports, between_(0, 0.3 * length), {x, y}, {}, between_(0, 1e-6));
-    hold(supports, between_(0.35 * length, 0.6 * length), {x, y, z}, {x, y}, between_(1e-9, 1e-6));
-    hold(supports, between_(0.65 * length, length), {x, y}, {z});
+    hold(supports, random(0, 0.3 * length), {x, y}, {}, random(0, 1e-6));
+    hold(supports, random(0.35 * length, 0.6 * length), {x, y, z}, {x, y}, random(1e-9, 1e-6));
+    hold(supports, random(0.65 * length, length), {x, y}, {z});
     const BeamSystem beam(pieces, supports), same(cut, supports);
     std::vector<BeamLoad> loads;
     for (int i = 0; i < 20; ++i) {
-      const auto any = [&](double size) { return Vector3d(between_(-size, size), between_(-size, size), between_(-size, size)); };
-      loads.push_back({between_(0, length), any(1), any(100)});
+      const auto any = [&](double size) { return Vector3d(random(-size, size), random(-size, size), random(-size, size)); };
+      loads.push_back({random(0, length), any(1), any(100)});
     }
     const Eigen::MatrixXd K = beam.flexibility(loads);
     CHECK(K == K.transpose());

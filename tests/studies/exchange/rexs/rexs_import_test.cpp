@@ -162,8 +162,8 @@ TEST_CASE("Ends and flanks follow the datum face", "[studies][rexs][import]") {
                                           "type=\"profile_twist\">" + attribute("profile_twist", "0.003")};
   const std::string negative = modified(at_flank);
   const Modification from_low = study_of(import_text(negative)).modification.pinion;
-  CHECK(from_low.lead_slope == Approx(0.010));
-  CHECK(from_low.twist == Approx(0.003));
+  CHECK(from_low.lead_slope == Approx(0.010).epsilon(round_off));
+  CHECK(from_low.twist == Approx(0.003).epsilon(round_off));
   // The datum face at the other end: what was seen as the right flank is now the left one, and both amounts turn round.
   std::string positive = replaced(negative, "role=\"left\"", "role=\"held\"");
   positive = replaced(positive, "role=\"right\"", "role=\"left\"");
@@ -184,19 +184,19 @@ TEST_CASE("Amounts of another range are carried on to the borders of the flank",
               attribute("helix_crowning_amount_non_datum_face", "0.008") +
               attribute("coordinate_where_helix_crowning_is_specified_datum_face", "-10") +
               attribute("coordinate_where_helix_crowning_is_specified_non_datum_face", "10"))
-            .lead_crowning == Approx(0.032));
+            .lead_crowning == Approx(0.032).epsilon(round_off));
   // K = 1e-4/mm from the apex at z = 4: C = K 20^2, slope -2 K 4 b.
   const Modification off_centre = flank("type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.0576") +
                                         attribute("helix_crowning_amount_non_datum_face", "0.0256") + attribute("helix_highest_point", "4"));
-  CHECK(off_centre.lead_crowning == Approx(1e-4 * 400.0));
-  CHECK(off_centre.lead_slope == Approx(-2e-4 * 4.0 * 40.0));
+  CHECK(off_centre.lead_crowning == Approx(1e-4 * 400.0).epsilon(round_off));
+  CHECK(off_centre.lead_slope == Approx(-2e-4 * 4.0 * 40.0).epsilon(round_off));
   CHECK(flank("type=\"helix_slope\">" + attribute("helix_slope", "0.010") + attribute("helix_evaluation_start", "-16") +
               attribute("helix_evaluation_end", "16"))
-            .lead_slope == Approx(0.0125));
+            .lead_slope == Approx(0.0125).epsilon(round_off));
   // Linear relief from d = 84 to 88 mm, 10 um at d = 86.
   CHECK(flank("type=\"tip_relief\">" + attribute("tip_relief_depth", "0.010") + attribute("tip_relief_datum_diameter", "84") +
               attribute("tip_relief_evaluation_reference", "86"))
-            .tip_relief.amount == Approx(0.020));
+            .tip_relief.amount == Approx(0.020).epsilon(round_off));
   // By roll length from the tip: the radius where the involute is that much shorter.
   const double rb = 40.0 * std::cos(20 * units::deg), roll = std::sqrt(44.0 * 44.0 - rb * rb) - 5.0;
   CHECK(flank("type=\"tip_relief\">" + attribute("tip_relief_depth", "0.010") + attribute("tip_relief_datum_length", "5")).tip_relief.height ==
@@ -251,9 +251,9 @@ TEST_CASE("Equal end reliefs are one, modifications of one kind add up", "[studi
               "type=\"helix_slope\">" + attribute("helix_slope", "0.003"),
           })))
           .modification.pinion;
-  CHECK(m.end_relief.amount == Approx(0.010));
+  CHECK(m.end_relief.amount == Approx(0.010).epsilon(round_off));
   CHECK(m.end_relief.length == 5.0);
-  CHECK(m.lead_slope == Approx(0.007));
+  CHECK(m.lead_slope == Approx(0.007).epsilon(round_off));
 }
 
 namespace {

@@ -52,6 +52,8 @@ std::string file_with_shaft(const std::string& u_axis = "1") {
          "</component>\n<component id=\"16\" type=\"gear_casing\"/>\n</components>\n</model>\n";
 }
 
+constexpr double shaft_round_off = 1e-12;  // of units
+
 rexs::ImportedStudy shaft_study(const std::string& text) { return rexs::import_stage(text, "gears.rexs", {}); }
 
 }  // namespace
@@ -67,9 +69,9 @@ TEST_CASE("A shaft with its bearings is imported with all numbers", "[studies][r
   CHECK(shaft.sections[0].inner_diameter == 10.0);
   CHECK(shaft.sections[1].outer_diameter == 50.0);
   REQUIRE(shaft.bearings.size() == 2);
-  CHECK(shaft.bearings[0].radial_stiffness == Approx(4e5));  // N/mm
-  CHECK(shaft.bearings[0].axial_stiffness == Approx(1e5));
-  CHECK(shaft.bearings[0].tilting_stiffness == Approx(2e9));  // N mm/rad
+  CHECK(shaft.bearings[0].radial_stiffness == Approx(4e5).epsilon(shaft_round_off));  // N/mm
+  CHECK(shaft.bearings[0].axial_stiffness == Approx(1e5).epsilon(shaft_round_off));
+  CHECK(shaft.bearings[0].tilting_stiffness == Approx(2e9).epsilon(shaft_round_off));  // N mm/rad
   CHECK(std::isinf(shaft.bearings[1].radial_stiffness));
   CHECK(shaft.gear_position == 80.0);
   CHECK(shaft.torque_position == 0.0);
@@ -91,7 +93,7 @@ TEST_CASE("A shaft whose axis runs against the pinion's is the same from its oth
   CHECK(shaft.sections[0].length == 90.0);
   CHECK(shaft.bearings[0].position == 10.0);
   CHECK(shaft.bearings[1].position == 145.0);
-  CHECK(shaft.bearings[1].tilting_stiffness == Approx(2e9));
+  CHECK(shaft.bearings[1].tilting_stiffness == Approx(2e9).epsilon(shaft_round_off));
   CHECK(shaft.gear_position == 80.0);
   CHECK(shaft.torque_position == 160.0);
 }

@@ -5,10 +5,10 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
-#include <random>
 #include <thread>
 
 #include "studies/base/json_format.hpp"
+#include "tests/common/random.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
 
@@ -44,9 +44,9 @@ bool run_and_kill(const ScratchFolder& folder, std::chrono::milliseconds after) 
 TEST_CASE("A sweep killed at random moments ends with the results of an undisturbed one", "[studies][sweep][command-line]") {
   const ScratchFolder folder;
   folder.file("sweep.toml", small::sweep("samples = 3000"));
-  std::mt19937 random(17);  // fixed seed
+  tests::Random32 random(17);
   int kills = 0;
-  for (int k = 0; k < 4; ++k) kills += run_and_kill(folder, std::chrono::milliseconds(20 + random() % 280));
+  for (int k = 0; k < 4; ++k) kills += run_and_kill(folder, std::chrono::milliseconds(20 + random.below(280)));
   CHECK(kills > 0);
   CHECK(run(folder, {"run", "sweep.toml", "--out", "killed"}).exit_code == 0);
   CHECK(run(folder, {"run", "sweep.toml", "--out", "whole"}).exit_code == 0);

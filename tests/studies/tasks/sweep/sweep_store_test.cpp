@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cstring>
 #include <fstream>
-#include <random>
 
 #include "studies/study_file/study_file.hpp"
+#include "tests/common/random.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/small_file_limit.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
@@ -131,9 +131,9 @@ TEST_CASE("A file that is no store, or a damaged one, is refused in one line and
   }
   const std::string whole = text_of(file);
   refused("cut", whole.substr(0, whole.size() / 2), "an undamaged store");
-  std::mt19937 random(5);  // fixed seed
+  tests::Random32 random(5);
   std::string scratched = whole;
-  for (std::size_t k = 4096; k < scratched.size(); ++k) scratched[k] = static_cast<char>(random());
+  for (std::size_t k = 4096; k < scratched.size(); ++k) scratched[k] = static_cast<char>(random.below(256));
   refused("scratched", scratched, "an undamaged store");
   const auto foreign = folder.path() / "foreign";
   { Database(foreign).execute("CREATE TABLE run (key, value)"); }
@@ -162,12 +162,12 @@ TEST_CASE("A store with a single bit flipped is refused or gives back the same s
   };
   const std::vector<double> truth = contents(file.string());
   const std::string whole = text_of(file);
-  std::mt19937 random(11);  // fixed seed
+  tests::Random32 random(11);
   int refused = 0, same = 0;
   for (int run = 0; run < 400; ++run) {
     std::string flipped = whole;
-    const std::size_t at = random() % whole.size();
-    const unsigned bit = random() % 8;
+    const std::size_t at = random.below(whole.size());
+    const std::size_t bit = random.below(8);
     flipped[at] = static_cast<char>(flipped[at] ^ (1U << bit));
     const std::string name = folder.file("flipped", flipped);
     CAPTURE(at, bit);
