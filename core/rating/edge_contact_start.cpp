@@ -61,8 +61,12 @@ bool reaches_tip_edge(const MeshModel& model, const LoadedCycle& cycle) {
   return false;
 }
 
-std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque) {
-  const LoadedCycle cycle = analyse_cycle(model, condition, pinion_torque, {}, {}, RootStresses::Later);
+std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
+                                                   double earlier_than) {
+  const double close = 1e-3 * pinion_torque;
+  const double whole = std::min(pinion_torque, earlier_than - close);
+  if (!(whole > 0.0)) return std::nullopt;
+  const LoadedCycle cycle = analyse_cycle(model, condition, whole, {}, {}, RootStresses::Later);
   std::vector<Touched> candidates;
   if (cycle.usable()) {
     for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
@@ -73,8 +77,7 @@ std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const
   std::ranges::stable_sort(candidates, std::greater(), &Touched::stress);
 
   // Positions that no edge touches at some torque are out of the question below it.
-  const double close = 1e-3 * pinion_torque;
-  EdgeContactStart start{pinion_torque, candidates.front().gear, model.positions[candidates.front().position].phase};
+  EdgeContactStart start{whole, candidates.front().gear, model.positions[candidates.front().position].phase};
   for (const Touched& candidate : candidates) {
     const MeshModel one = at_position(model, candidate.position);
     const auto touches = [&](double torque) -> std::optional<Touched> {
@@ -82,7 +85,7 @@ std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const
       return there.usable() ? touched(one.positions[0], there.positions[0], candidate.position) : std::nullopt;
     };
     double without = 0.0, torque = start.torque;
-    // The first is known to touch at the whole torque, the others have to do so earlier than those before them.
+    // The first is known to touch at this torque, the others have to do so earlier than those before them.
     if (&candidate != &candidates.front()) torque -= close;
     if (!(torque > 0.0)) break;
     std::optional<Touched> found = &candidate == &candidates.front() ? candidate : touches(torque);
@@ -111,8 +114,7 @@ EdgeContactStart edge_contact_start_near(const MeshAt& mesh_at, const FlankCondi
       if (k != 0) phases.push_back(phase - std::floor(phase));
     }
     std::ranges::sort(phases);
-    const auto beside = edge_contact_start(mesh_at(phases), condition, pinion_torque);
-    if (beside && beside->torque < start.torque) start = *beside;
+    if (const auto beside = edge_contact_start(mesh_at(phases), condition, pinion_torque, start.torque)) start = *beside;
   }
   return start;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "core/rating/contact_peaks.hpp"
@@ -21,8 +22,11 @@ struct EdgeContactStart {
 /// Sought by halving between no torque and the given one, at one position of the model after the other, to two thousandths of that torque. Contact that
 /// leaves an edge again as the torque grows is not looked for.
 /// @param pinion_torque  [N mm], > 0
-/// @returns nothing where contact reaches no edge at the given torque, or its loads were not found
-std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque);
+/// @param earlier_than   a torque at which contact is known to reach an edge at another position [N mm], > 0: only starts below it by a thousandth of
+///                       `pinion_torque` are sought
+/// @returns nothing where contact reaches no edge at the lesser of both torques, or its loads were not found
+std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
+                                                   double earlier_than = std::numeric_limits<double>::infinity());
 
 /// The same between mesh positions, where an edge touches first as a rule: a start found at one of them is sought on at phases beside it, first three quarters of the way
 /// to both neighbours and then as much closer.

@@ -1,6 +1,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "core/base/stopwatch.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
@@ -84,8 +85,9 @@ void StudyRun::find_edge_contact() {
     if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(model, loaded.condition, loaded.torque);
     // Between the positions an edge may touch earlier, or there alone.
     if (loaded.resolved.extreme_mesh) {
-      const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque);
-      if (between && (!loaded.edge_contact || between->torque < loaded.edge_contact->torque)) loaded.edge_contact = between;
+      const double known = loaded.edge_contact ? loaded.edge_contact->torque : std::numeric_limits<double>::infinity();
+      if (const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque, known))
+        loaded.edge_contact = between;
     }
     if (!loaded.edge_contact || !results_.study.cycle.phases.empty()) return;
     const double spacing = 1.0 / static_cast<double>(results_.phases.size());
