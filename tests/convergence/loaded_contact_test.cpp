@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -47,7 +48,7 @@ TEST_CASE("Where a spur line is in contact all along, two Gauss points an interv
   for (int n : intervals) errors.push_back(std::abs(summary(gears, condition, 400, n, 4).te_mean - exact) / exact);
   CAPTURE(errors);
   CHECK(errors[0] < 1e-6);
-  CHECK(observed_order(intervals, errors) == Approx(4.0).margin(0.2));
+  CHECK(observed_order(intervals, errors) == tests::about(4.0, 0.2));
 }
 
 TEST_CASE("An evenly loaded spur line needs one interval", "[convergence][load]") {

@@ -3,6 +3,7 @@
 
 #include "optimize/design/outputs/aggregate.hpp"
 #include "tests/common/random.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -67,7 +68,7 @@ TEST_CASE("Derivatives of the aggregates are what central differences say", "[op
         down[s] -= step;
         const double difference = (aggregate(over, up, weights) - aggregate(over, down, weights)) / (2.0 * step);
         CAPTURE(to_string(over), trial, s);
-        CHECK(derivative[s] == Approx(difference).margin(discretisation));
+        CHECK(derivative[s] == tests::about(difference, discretisation));
       }
     }
   }

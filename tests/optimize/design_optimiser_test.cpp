@@ -4,6 +4,7 @@
 #include <map>
 
 #include "tests/optimize/design_tasks.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::design_tasks;
@@ -62,7 +63,7 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
   const DesignResult result = optimise(task);
   CAPTURE(misalignment, result.message);
   // The wheel opens the mesh at +z by F; removing F at -z brings the flanks parallel again.
-  CHECK(result.after.variables[0] / units::um == Approx(-misalignment).margin(0.01));  // the optimiser's tolerance
+  CHECK(result.after.variables[0] / units::um == tests::about(-misalignment, 0.01));  // the optimiser's tolerance
   DesignTask aligned = spur({0.0});
   aligned.effects = task.effects;
   DesignProblem problem(aligned);

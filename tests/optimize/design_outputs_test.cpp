@@ -10,6 +10,7 @@
 #include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/output_gradients.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::design_tasks;
@@ -73,7 +74,7 @@ TEST_CASE("An output is what the cycle itself shows", "[optimize][design][output
       const std::vector<double> harmonics = harmonic_amplitudes({te.begin(), te.end()});
       for (int order = 1; order <= 3; ++order) {
         CHECK(output_value(term(Output::TeHarmonic, order), {model, cycle}) ==
-              Approx(harmonics[static_cast<std::size_t>(order) - 1]).margin(round_off * te.cwiseAbs().maxCoeff()));
+              tests::about(harmonics[static_cast<std::size_t>(order) - 1], round_off * te.cwiseAbs().maxCoeff()));
       }
     }
   }

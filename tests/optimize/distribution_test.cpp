@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/error.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -47,7 +48,7 @@ TEST_CASE("A truncated normal distribution stays inside, has the truncated momen
   const auto density = [](double x) { return std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi); };
   const double share = normal_probability(high) - normal_probability(low);
   // Discretisation: midpoint rule of a bounded monotone function, within (high - low)/n.
-  CHECK(sum / n == Approx((density(low) - density(high)) / share).margin(2.5 / n));
+  CHECK(sum / n == tests::about((density(low) - density(high)) / share, 2.5 / n));
 
   const Distribution wide = Distribution::truncated_normal(5.0, 2.0, -1e3, 1e3);
   for (const double u : {1e-6, 0.3, 0.9999}) {

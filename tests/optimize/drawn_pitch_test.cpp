@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "optimize/sampling/distribution.hpp"
+#include "tests/common/about.hpp"
 
 namespace flankwright {
 namespace {
@@ -55,8 +56,8 @@ TEST_CASE("Drawn pitches alternate from tooth to tooth and have the deviation th
   const double c = 3.0 / std::numbers::sqrt2, density = std::exp(-0.5 * c * c) / std::sqrt(2.0 * std::numbers::pi);
   const double left = 1.0 - 2.0 * c * density / (2.0 * normal_probability(c) - 1.0);
   CHECK(std::sqrt(squares / count) == Approx(large_gear.single / 3.0 * std::sqrt(left)).epsilon(statistical));
-  CHECK(next / squares == Approx(-0.5).margin(statistical));
-  CHECK(second / squares == Approx(0.0).margin(statistical));
+  CHECK(next / squares == tests::about(-0.5, statistical));
+  CHECK(second / squares == tests::about(0.0, statistical));
 }
 
 TEST_CASE("The same draw is the same gear, another one another", "[optimize][sampling]") {

@@ -3,6 +3,7 @@
 #include "optimize/design/design_optimiser.hpp"
 #include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::design_tasks;
@@ -52,7 +53,7 @@ TEST_CASE("A tied modification follows its variable, and gradients go through it
       const DesignAnalysis moved = problem.analyse(x + by * Eigen::VectorXd::Unit(3, i), false);
       return candidate_value(stress, leader, {problem.model(1), moved.cycles[1]}).value;
     };
-    CHECK(exact[i] == Approx((value(step) - value(-step)) / (2.0 * step)).margin(discretisation * exact.cwiseAbs().maxCoeff()));
+    CHECK(exact[i] == tests::about((value(step) - value(-step)) / (2.0 * step), discretisation * exact.cwiseAbs().maxCoeff()));
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::design_tasks;
@@ -101,7 +102,7 @@ TEST_CASE("Without steps nothing is rounded, and a budget of one analysis gives 
   CHECK(nearest.analyses == 1);
   constexpr double round_off = 1e-12;
   CHECK(problem.unscaled(nearest.x, 0) == Approx(0.010).epsilon(round_off));  // 10.4 um
-  CHECK(problem.unscaled(nearest.x, 1) == Approx(0.0).margin(round_off));     // 0.4 um
+  CHECK(problem.unscaled(nearest.x, 1) == tests::about(0.0, round_off));      // 0.4 um
 }
 
 TEST_CASE("The least of a function on the steps is that of the whole grid", "[optimize][design][rounding]") {
@@ -121,7 +122,7 @@ TEST_CASE("The least of a function on the steps is that of the whole grid", "[op
   }
   for (int i = 0; i < 2; ++i) CHECK(is_multiple(problem.unscaled(found, i), step));
   constexpr double round_off = 1e-9;
-  CHECK(figure(found).violation == Approx(least.violation).margin(round_off));
+  CHECK(figure(found).violation == tests::about(least.violation, round_off));
   CHECK(figure(found).objective == Approx(least.objective).epsilon(round_off));
 }
 

@@ -13,6 +13,7 @@
 #include "optimize/sampling/sample_design.hpp"
 #include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -70,8 +71,8 @@ TEST_CASE("A deviation of the profile crowning keeps the difference of its halve
   set(m, parameter_of("dedendum_crowning"), 1.0 * units::um);
   ModificationDeviation{Member::Wheel, parameter_of("profile_crowning"), 2.0 * units::um}.add_to(gears);
   constexpr double round_off = 1e-15;  // mm
-  CHECK(get(m, parameter_of("addendum_crowning")) == Approx(7.0 * units::um).margin(round_off));
-  CHECK(get(m, parameter_of("dedendum_crowning")) == Approx(3.0 * units::um).margin(round_off));
+  CHECK(get(m, parameter_of("addendum_crowning")) == tests::about(7.0 * units::um, round_off));
+  CHECK(get(m, parameter_of("dedendum_crowning")) == tests::about(3.0 * units::um, round_off));
 }
 
 TEST_CASE("Gradients of the statistics over draws are what central differences say", "[optimize][design][scatter][gradient]") {
@@ -249,7 +250,7 @@ TEST_CASE("A design chosen over draws lies on the steps, and no neighbour is bet
     CHECK(found.value == Approx(of(found.x)).epsilon(by_start));
     for (int i = 0; i < whole.variables(); ++i) {
       const double steps = whole.unscaled(found.x, i) / step;
-      CHECK(steps == Approx(std::round(steps)).margin(1e-9));  // round-off
+      CHECK(steps == tests::about(std::round(steps), 1e-9));  // round-off
     }
     // Independent route: every neighbour by one step, pairs as well, at all draws. The model tells them apart to first order in what it knows of each draw.
     constexpr double of_model = 0.01;
@@ -352,7 +353,7 @@ TEST_CASE("A statistic is modelled exactly at the design analysed, and to first 
     const double beside = problem.objective(problem.analyse(x + step, false));
     const double change = beside - problem.objective(analysis);
     constexpr double of_second_order = 0.05;  // of a change of 0.1 % of the ranges
-    CHECK(model.statistic(model.measures(x + step, 20)) == Approx(beside).margin(of_second_order * std::abs(change) + 1e-5 * beside));
+    CHECK(model.statistic(model.measures(x + step, 20)) == tests::about(beside, of_second_order * std::abs(change) + 1e-5 * beside));
   }
 }
 

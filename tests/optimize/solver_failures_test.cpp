@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "optimize/solvers/solver.hpp"
 #include "tests/problems/library.hpp"
+#include "tests/common/about.hpp"
 
 namespace flankwright {
 
@@ -203,7 +204,7 @@ TEST_CASE("a variable with equal bounds stays where it is", "[optimize][solver]"
     const SolverResult result = solve(problem, options_for(name, 4000));
     CAPTURE(name, result.message);
     CHECK(result.x[1] == 0.6);
-    CHECK(result.objective == Approx(0.35 * 0.35).margin(1e-3));  // model: the coarsest solver's accuracy
+    CHECK(result.objective == tests::about(0.35 * 0.35, 1e-3));  // model: the coarsest solver's accuracy
 
     problem.lower_bounds = problem.upper_bounds = problem.from;
     const SolverResult fixed = solve(problem, options_for(name));
@@ -222,7 +223,7 @@ TEST_CASE("local solvers take variables without bounds", "[optimize][solver]") {
     if (is_global(name)) {
       CHECK_THROWS_AS(solve(problem, options_for(name)), InvalidInput);
     } else {
-      CHECK(solve(problem, options_for(name)).objective == Approx(0.0).margin(1e-8));  // model: the step tolerance, squared
+      CHECK(solve(problem, options_for(name)).objective == tests::about(0.0, 1e-8));  // model: the step tolerance, squared
     }
   }
 }

@@ -5,6 +5,7 @@
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/reference/haddad_rig.hpp"
+#include "tests/common/about.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -64,7 +65,7 @@ TEST_CASE("The rig's shafts deflect under a load at mid face as Haddad calculate
     const double found = shafts.influence({at(row.z), at(45.0)}, 0.0)(0, 1) * force / units::um;
     const double printed = row.wheel_shear + row.wheel_bending + row.pinion_torsion + row.pinion_shear + row.pinion_bending;
     CAPTURE(row.z, found, printed);
-    if (row.z > 0.0) CHECK(row.total == Approx(printed).margin(0.02));  // his sum; 16.055 in the first row should be 16.875
+    if (row.z > 0.0) CHECK(row.total == tests::about(printed, 0.02));  // his sum; 16.055 in the first row should be 16.875
     // Model: Cowper's shear instead of 3/4 adds up to 0.9 um in the hollow shaft, the overhung gears' bow takes 0.1 to 0.4 away, the tilt
     // by the axial force adds.
     CHECK(found == Approx(printed).epsilon(0.06));
@@ -81,7 +82,7 @@ TEST_CASE("Loading the rig adds the transmission error that was measured", "[ref
     CHECK(with_shafts[phase] == Approx(rig::measured_added_error).epsilon(0.05));
     CHECK(with_shafts[phase] == Approx(rig::calculated_added_error[phase]).epsilon(0.05));
     // Without shafts, two fifths are missing: what table 6B.1 has.
-    CHECK(with_shafts[phase] - without[phase] == Approx(20.5).margin(1.5));
+    CHECK(with_shafts[phase] - without[phase] == tests::about(20.5, 1.5));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 /// What chapters 3 and 4 of C. D. Haddad's thesis (1991) say about loads and load distribution factors in words, where teeth as slices
 /// or plates already show it; haddad_trends.md has the figures, with finite elements beside them.
@@ -69,7 +70,7 @@ TEST_CASE("Coupled helical teeth have load spikes at the start and the end of co
   const LinePeak &stress = plate.with_spikes.contact_stress, &load = plate.with_spikes.line_load;
   CAPTURE(stress.value, plate.without_spikes.contact_stress.value, slices.with_spikes.contact_stress.value);
   // The corner itself is softer than what lies next to it, as one gear's edge is sharp there: 2 to 3 mm of line, 0.05 base pitches.
-  CHECK(stress.phase + stress.tooth == Approx(start).margin(0.07));
+  CHECK(stress.phase + stress.tooth == tests::about(start, 0.07));
   CHECK(std::abs(stress.z) > 57);
   CHECK(std::min(std::abs(load.phase + load.tooth - end), std::abs(load.phase + load.tooth - start)) < 0.07);
   CHECK(stress.value > 1.25 * plate.without_spikes.contact_stress.value);
@@ -98,13 +99,13 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
   const MeshEffects bent_only = MeshEffects::all_but({"free_ends"});
   const std::map<double, double> steel = along_face(0.3, bent_only), without = along_face(0, bent_only);
   const double middle = steel.rbegin()->second, end = steel.begin()->second;
-  CHECK(lowest_at(steel) == Approx(2.2).margin(0.4));
-  CHECK(end / middle == Approx(1.07).margin(0.02));
-  CHECK(without.begin()->second / without.rbegin()->second == Approx(1).margin(0.02));
+  CHECK(lowest_at(steel) == tests::about(2.2, 0.4));
+  CHECK(end / middle == tests::about(1.07, 0.02));
+  CHECK(without.begin()->second / without.rbegin()->second == tests::about(1, 0.02));
   // What the thesis says of the ends themselves: contact is softer there, and outweighs the plate.
   const std::map<double, double> with_ends = along_face(0.3, {});
   CHECK(lowest_at(with_ends) == with_ends.begin()->first);
-  CHECK(with_ends.begin()->second / with_ends.rbegin()->second == Approx(0.92).margin(0.04));  // model: 0.88 to 0.96
+  CHECK(with_ends.begin()->second / with_ends.rbegin()->second == tests::about(0.92, 0.04));  // model: 0.88 to 0.96
 }
 
 TEST_CASE("Full contact under a misalignment is best crowned by sqrt(3)/4 of it", "[reference][haddad][load-factors]") {
@@ -122,7 +123,7 @@ TEST_CASE("Full contact under a misalignment is best crowned by sqrt(3)/4 of it"
   const double misalignment = 4;  // um: no slice loses contact
   std::map<double, double> by_crowning;
   for (double share = 0.2; share < 0.7; share += 0.01) by_crowning[share] = peak(misalignment, share * misalignment);
-  CHECK(lowest_at(by_crowning) == Approx(std::sqrt(3) / 4).margin(0.011));  // discretisation: the step
+  CHECK(lowest_at(by_crowning) == tests::about(std::sqrt(3) / 4, 0.011));  // discretisation: the step
 }
 
 TEST_CASE("Crowning a misaligned helical pair first lowers K_Hbeta, then raises it", "[reference][haddad][load-factors]") {

@@ -14,6 +14,7 @@
 #include "tests/benchmarks/contact_truth/outside_fillet.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
 #include "tests/benchmarks/contact_truth/rounded_tip.hpp"
+#include "tests/common/about.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -31,7 +32,7 @@ void compare_with(const std::vector<ContactFigure>& figures, double load_error) 
     REQUIRE(own.loaded.load.usable());
     // Model: 1 %. Discretisation: ours takes up to 1.1 % off (coarse elements), CalculiX' coarse mesh of the helical pair 0.5 %.
     CHECK(own.loaded.load.transmission_error == Approx(figure.task.approach).epsilon(0.015));
-    for (const auto& [tooth, share] : figure.shares) CHECK(own.share(tooth) == Approx(share).margin(0.02));  // model
+    for (const auto& [tooth, share] : figure.shares) CHECK(own.share(tooth) == tests::about(share, 0.02));  // model
     for (const FaceLoad& load : figure.loads) {
       CAPTURE(load.tooth, load.begin);
       CHECK(own.mean_face_load(load.tooth, load.begin, load.end) == Approx(load.per_face_width).epsilon(load_error));
@@ -100,7 +101,7 @@ TEST_CASE("A rounded tip edge carries the load and the pressure that CalculiX fi
     CAPTURE(figure.task.phase, figure.torque);
     const OwnAnswer own = own_answer(figure.task, figure.torque, structure.get());
     REQUIRE(own.loaded.load.usable());
-    CHECK(own.share(figure.edge_pair) == Approx(figure.share).margin(0.01));  // model
+    CHECK(own.share(figure.edge_pair) == tests::about(figure.share, 0.01));  // model
     // Model: ours is 1 to 3 % higher at the loads that ours has. Discretisation: CalculiX' rises by 2 % from 24 x 8 to 36 x 10 elements.
     CHECK(own.peak_stress(figure.edge_pair) == Approx(figure.stress).epsilon(0.05));
     CHECK(own.loaded.load.transmission_error == Approx(figure.task.approach).epsilon(0.02));  // model: the pinion's edge 1.5 %
@@ -113,7 +114,7 @@ TEST_CASE("Where a helical line of contact leaves over a rounded tip edge the lo
   const OwnAnswer own = own_answer(task, figure.torque, held_structure(task).get());
   REQUIRE(own.loaded.load.usable());
   CHECK(own.loaded.load.transmission_error == Approx(task.approach).epsilon(0.01));  // model
-  CHECK(own.share(0) == Approx(figure.share).margin(0.01));                          // model
+  CHECK(own.share(0) == tests::about(figure.share, 0.01));                           // model
   double own_peak = 0.0, peak = 0.0;
   for (const LayerFigure& layer : figure.layers) {
     const double load = own.mean_face_load(0, layer.begin, layer.end), times = layer.force / load;
@@ -145,7 +146,7 @@ TEST_CASE("The outside model's tip roundings touch flank and tip cylinder and ar
     CHECK(place(0).norm() == Approx(tip).epsilon(1e-14));
     CHECK(place(rounded.angle()).norm() == Approx(std::hypot(pair[m].base_radius, rounded.flank_end())).epsilon(1e-12));
     // The program's flank ends where two tangent planes at the sharp tip have it. Model: what the involute bends over the rounding.
-    CHECK(pair[m].roll_length_at(pair[m].tip_form_radius) == Approx(rounded.flank_end()).margin(0.05 * rho));
+    CHECK(pair[m].roll_length_at(pair[m].tip_form_radius) == tests::about(rounded.flank_end(), 0.05 * rho));
     const ContactMesh mesh = contact_mesh(contact_gear(task, pair, scene[m], m, 0, 1), edge_settings(task).mesh);
     CHECK(mesh.solid.quality() > 0);  // no element is folded
   }
@@ -210,7 +211,7 @@ TEST_CASE("Stress along the outside model's fillets is that of a uniform strain"
     // Where the 30 deg tangent is, by the program's own mesh of the fillet. Discretisation of its arc.
     const GearMesh own = gear_mesh({pair[m].data, c.task.pair.normal_module, pair.data.pressure_angle, pair.data.helix_angle, {}});
     const ToothForm form = tooth_form(pair, m);
-    CHECK(even.tangent() == Approx(FilletStress(own, c.task.material).along(form.root_tangent_point(30 * units::deg))).margin(2e-3));
+    CHECK(even.tangent() == tests::about(FilletStress(own, c.task.material).along(form.root_tangent_point(30 * units::deg)), 2e-3));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "tests/common/about.hpp"
+
 using namespace flankwright;
 
 namespace {
@@ -26,12 +28,11 @@ TEST_CASE("Smooth interpolation meets its values, has one slope at each place an
   const auto wave = [](double x) { return std::sin(2.0 * x); };
   for (std::size_t left = 0; left + 1 < places.size(); ++left) {
     const double a = places[left], b = places[left + 1];
-    CHECK(interpolated(wave, left, a) == Approx(wave(a)).margin(kRoundOff));
-    CHECK(interpolated(wave, left, b) == Approx(wave(b)).margin(kRoundOff));
-    for (const double t : {0.2, 0.5, 0.9})
-      CHECK(interpolated(parabola, left, a + t * (b - a)) == Approx(parabola(a + t * (b - a))).margin(kRoundOff));
+    CHECK(interpolated(wave, left, a) == tests::about(wave(a), kRoundOff));
+    CHECK(interpolated(wave, left, b) == tests::about(wave(b), kRoundOff));
+    for (const double t : {0.2, 0.5, 0.9}) CHECK(interpolated(parabola, left, a + t * (b - a)) == tests::about(parabola(a + t * (b - a)), kRoundOff));
     if (left + 2 == places.size()) continue;
     const double before = (wave(b) - interpolated(wave, left, b - step)) / step, after = (interpolated(wave, left + 1, b + step) - wave(b)) / step;
-    CHECK(before == Approx(after).margin(kDifference));
+    CHECK(before == tests::about(after, kDifference));
   }
 }

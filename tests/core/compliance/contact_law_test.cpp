@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/compliance/local/hertz_line.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using units::deg;
@@ -92,7 +93,7 @@ TEST_CASE("Haddad's printed contact deflections follow from the formulas", "[cor
     const double m = y > 4.2 ? 1 : 1.627 - 0.282 * y + 0.03338 * y * y;
     thesis += m * s.coefficient * row.load * (std::log(2 * s.depth / half_width) - 3.0 / 14);
   }
-  CHECK(thesis / units::um == Approx(row.deflection).margin(0.001));  // model: printed to 0.001 um
+  CHECK(thesis / units::um == tests::about(row.deflection, 0.001));  // model: printed to 0.001 um
   // Model: eq. 1.30 in place of 1.34 and the smooth end of the tip factor are worth 0.5 % at most here; without the tip
   // correction 0.02 %.
   CHECK(law.deflection(row.load) == Approx(thesis).epsilon(5e-3));
@@ -154,11 +155,11 @@ TEST_CASE("The tip factor is Steward's parabola, then falls smoothly and monoton
   for (const double joint : {3.6, 5.0}) {
     const double step = 1e-6;
     const TipFactor below = tip_factor(joint - step), above = tip_factor(joint + step);
-    CHECK(above.value == Approx(below.value).margin(1e-6));
-    CHECK(above.slope == Approx(below.slope).margin(1e-6));
+    CHECK(above.value == tests::about(below.value, 1e-6));
+    CHECK(above.slope == tests::about(below.slope, 1e-6));
     const double curvature_below = (below.slope - tip_factor(joint - 2 * step).slope) / step;
     const double curvature_above = (tip_factor(joint + 2 * step).slope - above.slope) / step;
-    CHECK(curvature_above == Approx(curvature_below).margin(1e-5));  // discretisation: one-sided differences
+    CHECK(curvature_above == tests::about(curvature_below, 1e-5));  // discretisation: one-sided differences
   }
 }
 

@@ -12,6 +12,7 @@
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/compliance/local/load_end.hpp"
 #include "tests/core/compliance/finite_element/block_mesh.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::test;
@@ -129,7 +130,7 @@ TEST_CASE("A block pressed up to its free end yields by the free-end law", "[cor
       const double distance = block.distances()[i];
       CAPTURE(nu, depth, distance);
       // Fit: 0.02. Discretisation and the block's far sides: 0.01.
-      CHECK(block.deflection(true, j, i) - block.deflection(false, j, i) == Approx(end.at({distance, INFINITY}, depth, 1).value).margin(0.03));
+      CHECK(block.deflection(true, j, i) - block.deflection(false, j, i) == tests::about(end.at({distance, INFINITY}, depth, 1).value, 0.03));
     }
   }
   // Per ln(depth), under the end face itself: softer than plane stress, which has 1. Discretisation.
@@ -171,7 +172,7 @@ TEST_CASE("Where the mate ends first the flank beyond it holds up the load's end
       // Model: no fit, and the spread across the contact is that of its far field: 0.06. Discretisation: 0.04. The law changes by up to 1.1 here.
       const double law =
           end.at({distance + overhang, INFINITY}, depth, 1).value + load_end_support(nu, {distance - overhang, 0}, {overhang, 0}, depth, 1).value;
-      CHECK(law == Approx(found).margin(0.1));
+      CHECK(law == tests::about(found, 0.1));
     }
   }
 }
@@ -202,7 +203,7 @@ TEST_CASE("A load that varies along the line sinks the flank by the contact kern
       // Model: nothing is fitted to varying loads, 0.1; discretisation: 0.02. At leaning ends the kernel is blunt by h/10, and the law is for finite
       // elements' own deflection of the centre, see above.
       if (lean == 0)
-        CHECK(even + neighbours == Approx(found).margin(0.12));
+        CHECK(even + neighbours == tests::about(found, 0.12));
       else
         CHECK(even + neighbours == Approx(found).epsilon(0.3).margin(0.2));
       of_even += std::pow(even - found, 2);

@@ -7,6 +7,7 @@
 #include "core/gear/involute.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 #include "tests/core/gear/pair_cases.hpp"
+#include "tests/common/about.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -70,8 +71,8 @@ TEST_CASE("Contact points lie on the finite-element gears as in the housing: sam
       for (std::size_t j = 0; j < i; ++j) {
         // Common normals are parallel all over the plane of action, and distances are those of the housing. Round-off.
         const double apart = (in_housing(pair, points[i]) - in_housing(pair, points[j])).norm();
-        CHECK((frames[i].position - frames[j].position).norm() == Approx(apart).margin(1e-9 * kModule));
-        CHECK(frames[i].normal.dot(frames[j].normal) == Approx(1.0).margin(1e-12));
+        CHECK((frames[i].position - frames[j].position).norm() == tests::about(apart, 1e-9 * kModule));
+        CHECK(frames[i].normal.dot(frames[j].normal) == tests::about(1.0, 1e-12));
         if (points[i].tooth != points[j].tooth) ++teeth;
       }
     }

@@ -6,6 +6,7 @@
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/gear/pair_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -64,14 +65,15 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector3d s = components.col(static_cast<Eigen::Index>(i)) * kStressModule * kStressModule;
       // The same number of teeth apart, in the mesh's own sense of counting on either gear; round-off of splines.
-      CHECK(s[0] == Approx((pinion ? -1 : 1) * (points[i].tooth - station.tooth)).margin(1e-11));
+      CHECK(s[0] == tests::about((pinion ? -1 : 1) * (points[i].tooth - station.tooth), 1e-11));
       const double radius = pinion ? points[i].pinion_radius : points[i].wheel_radius;
-      CHECK(s[1] == Approx(2 * (radius - pair[station.member].form_radius) / (pair[station.member].tip_radius - pair[station.member].form_radius) - 1)
-                        .margin(1e-11));
+      CHECK(s[1] ==
+            tests::about(2 * (radius - pair[station.member].form_radius) / (pair[station.member].tip_radius - pair[station.member].form_radius) - 1,
+                         1e-11));
       // zeta runs from the acute end, opposite ends on both gears: with z on one, against it on the other.
       const double along_z = (points[i].z - station.z) / kStressModule;
       const double sense = (pinion ? -1 : 1) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
-      CHECK(s[2] == Approx(sense * along_z).margin(1e-11));
+      CHECK(s[2] == tests::about(sense * along_z, 1e-11));
     }
   }
   CHECK(tangents * 3 == static_cast<int>(found.stations.size()));

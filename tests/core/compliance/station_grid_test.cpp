@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -40,7 +41,7 @@ TEST_CASE("A grid reproduces what is cubic in u and in zeta", "[core][compliance
   for (int i = 0; i <= 20; ++i) {
     for (int j = 0; j <= 20; ++j) {
       const FlankStation p{0, -1 + 0.1 * i, std::min(width, width * j / 20)};
-      CHECK(grid.weights(p).dot(table) == Approx(f(p.u, p.zeta)).margin(1e-12));  // round-off
+      CHECK(grid.weights(p).dot(table) == tests::about(f(p.u, p.zeta), 1e-12));  // round-off
     }
   }
 }
@@ -64,7 +65,7 @@ TEST_CASE("Between stations the error falls with the fourth power of the step", 
   };
   const double coarse = worst(7, 11), fine = worst(13, 21);
   CAPTURE(coarse, fine);
-  CHECK(std::log2(coarse / fine) == Approx(4).margin(0.7));  // discretisation: ends converge last
+  CHECK(std::log2(coarse / fine) == tests::about(4, 0.7));  // discretisation: ends converge last
 }
 
 TEST_CASE("The steps of a gear's grid grow from both ends alike", "[core][compliance]") {

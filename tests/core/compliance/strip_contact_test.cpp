@@ -7,6 +7,7 @@
 #include "core/base/units.hpp"
 #include "core/compliance/local/contact_law.hpp"
 #include "core/compliance/local/hertz_line.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using units::pi;
@@ -130,7 +131,7 @@ TEST_CASE("A strip's pressure carries its load, on the rounding its part of it, 
   const double discretisation = 1e-5;  // midpoint rule with a root at either end
   CHECK(carried == Approx(load).epsilon(discretisation));
   // The rounding begins within a step of the rule.
-  CHECK(strip.peaks().edge_load.load == Approx(on_edge).margin(discretisation * load + highest * width / n));
+  CHECK(strip.peaks().edge_load.load == tests::about(on_edge, discretisation * load + highest * width / n));
   CHECK(strip.peaks().highest.pressure == Approx(highest).epsilon(discretisation));
 }
 
@@ -229,7 +230,7 @@ TEST_CASE("A strip at a sharp edge is the limit of small roundings and carries i
   CHECK(sharp.growth() == Approx(nearly.growth()).epsilon(limit));
   CHECK(sharp.rise() == Approx(nearly.rise()).epsilon(limit));
   CHECK(sharp.half_width_by_edge() == Approx(nearly.half_width_by_edge()).epsilon(limit));
-  CHECK(sharp.rise_by_edge() == Approx(nearly.rise_by_edge()).margin(limit));
+  CHECK(sharp.rise_by_edge() == tests::about(nearly.rise_by_edge(), limit));
   double carried = 0.0;
   constexpr int n = 100'000;
   for (int i = 0; i < n; ++i) {  // s = e - t^2 takes the root out of the pressure at the edge

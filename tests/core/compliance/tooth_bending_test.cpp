@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/base/units.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using units::deg;
@@ -39,13 +40,13 @@ TEST_CASE("The profile rises with its parameter as differences of its height say
   for (const double share : {0.01, 0.2, 0.5, 0.8, 0.99}) {
     const double lambda = form.fillet_start() + share * (pi / 2 - form.fillet_start());
     const double fillet = (form.fillet_point(lambda + kStep).y - form.fillet_point(lambda - kStep).y) / (2 * kStep);
-    CHECK(form.fillet_rise(lambda) == Approx(fillet).margin(kDiscretisation * form.tip_radius()));
+    CHECK(form.fillet_rise(lambda) == tests::about(fillet, kDiscretisation * form.tip_radius()));
     CHECK(form.fillet_rise(lambda) < 0);
-    CHECK(form.fillet_at_height(form.fillet_point(lambda).y) == Approx(lambda).margin(1e-6));  // flat at its lowest point
+    CHECK(form.fillet_at_height(form.fillet_point(lambda).y) == tests::about(lambda, 1e-6));  // flat at its lowest point
     const double roll = form.involute_start() + share * 3;
     const double involute = (form.involute_point(roll + kStep).y - form.involute_point(roll - kStep).y) / (2 * kStep);
-    CHECK(form.involute_rise(roll) == Approx(involute).margin(kDiscretisation * form.tip_radius()));
-    CHECK(form.involute_at_height(form.involute_point(roll).y) == Approx(roll).margin(1e-9));
+    CHECK(form.involute_rise(roll) == tests::about(involute, kDiscretisation * form.tip_radius()));
+    CHECK(form.involute_at_height(form.involute_point(roll).y) == tests::about(roll, 1e-9));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <vector>
 
+#include "tests/common/about.hpp"
+
 using namespace flankwright;
 
 TEST_CASE("A curve promises its kink where both sides are straight, and the top of a parabola", "[core][fidelity]") {
@@ -14,10 +16,10 @@ TEST_CASE("A curve promises its kink where both sides are straight, and the top 
     hill.push_back({x, -(x - 2.3) * (x - 2.3)});
   }
   const CurveRise kink = rise_between(roof, 3), top = rise_between(hill, 3);
-  CHECK(kink.x == Approx(2.3).margin(kRoundOff));
-  CHECK(kink.height == Approx(4.6).margin(kRoundOff));
+  CHECK(kink.x == tests::about(2.3, kRoundOff));
+  CHECK(kink.height == tests::about(4.6, kRoundOff));
   CHECK(top.height >= -kRoundOff);
-  CHECK(rise_between(roof, 4).height == Approx(roof[4].y).margin(kRoundOff));  // it falls
+  CHECK(rise_between(roof, 4).height == tests::about(roof[4].y, kRoundOff));  // it falls
 }
 
 TEST_CASE("A sample that is alone on its piece promises a rise to either side, one of a resolved piece does not", "[core][fidelity]") {
@@ -29,10 +31,10 @@ TEST_CASE("A sample that is alone on its piece promises a rise to either side, o
   const double rise = 0.5 * (curve[4].y - curve[3].y);
   for (const std::size_t left : {3U, 4U}) {
     const CurveRise beside = rise_between(curve, left);
-    CHECK(beside.x == Approx(static_cast<double>(left) + 0.5).margin(kRoundOff));
+    CHECK(beside.x == tests::about(static_cast<double>(left) + 0.5, kRoundOff));
     CHECK(beside.height >= curve[4].y + 0.9 * rise);
   }
-  CHECK(rise_between(curve, 4).height == Approx(curve[4].y + rise).margin(kRoundOff));
+  CHECK(rise_between(curve, 4).height == tests::about(curve[4].y + rise, kRoundOff));
   // Where more samples lie on the spike the promise is that of its own sides: the kink.
   curve.clear();
   for (int i = 0; i <= 70; ++i) curve.push_back({2.0 + 0.06 * i, at(2.0 + 0.06 * i)});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/common/random.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -189,8 +190,8 @@ TEST_CASE("Interpolation of a smooth function converges with the fourth power of
   }
   for (std::size_t i = 0; i + 1 < value_errors.size(); ++i) {
     CAPTURE(value_errors[i], value_errors[i + 1], curvature_errors[i], curvature_errors[i + 1]);
-    CHECK(std::log2(value_errors[i] / value_errors[i + 1]) == Approx(4.0).margin(0.35));
-    CHECK(std::log2(curvature_errors[i] / curvature_errors[i + 1]) == Approx(2.0).margin(0.35));
+    CHECK(std::log2(value_errors[i] / value_errors[i + 1]) == tests::about(4.0, 0.35));
+    CHECK(std::log2(curvature_errors[i] / curvature_errors[i + 1]) == tests::about(2.0, 0.35));
   }
 }
 
@@ -237,7 +238,7 @@ TEST_CASE("Beyond a ragged edge the extension grows linearly where the cubic of 
   const Jet edge = spline.at(8.0, 0.5);
   const double third = edge.uu - spline.at(7.0, 0.5).uu;  // of the last cubic, over an interval of 1
   const auto cubic = [&](double d) { return edge.value + d * (edge.u + d * (0.5 * edge.uu + d * third / 6.0)); };
-  REQUIRE(spline.at(7.2, 0.5).value == Approx(cubic(-0.8)).margin(spline_round_off));
+  REQUIRE(spline.at(7.2, 0.5).value == tests::about(cubic(-0.8), spline_round_off));
   CHECK(std::abs(spline.at(10.0, 0.5).value) <= 0.5 * std::abs(cubic(2.0)));
   CHECK(spline.at(16.0, 0.5).value - edge.value <= 8.0 * (edge.u + 0.5 * edge.uu));
 }

@@ -13,6 +13,7 @@
 #include "core/gear/gear_pair.hpp"
 #include "tests/common/random.hpp"
 #include "tests/core/gear/pair_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using units::deg;
@@ -103,7 +104,7 @@ TEST_CASE("Added metal moves the flank along its normal by the deviation measure
       const SurfacePoint a = surface_point(nominal, rho, z, 0, 0.0), b = surface_point(real, rho, z, 0, 0.0);
       // Model: the tangential part of the displacement, added tan(beta_b), leaves the tangent plane by its square over
       // the curvature.
-      CHECK((b.position - a.position).dot(a.normal) == Approx(added).margin(added * added / rho));
+      CHECK((b.position - a.position).dot(a.normal) == tests::about(added, added * added / rho));
     }
   }
 }
@@ -129,7 +130,7 @@ TEST_CASE("A grid of a lead crowning is that lead crowning, beyond the grid to t
   }
   // Model: the share d/(3 L) of the curvature term at the face end, d = 4.6 mm beyond the grid, L = 82.8/14 mm.
   const double missing = 4.6 / (3.0 * 82.8 / 14.0) * 0.5 * 8.0 * 0.03 * (4.6 / 92.0) * (4.6 / 92.0);
-  CHECK(fit.field->at(20.0, 46.0).value == Approx(removal(crowned, frame, 60.0, 46.0) - missing).margin(grid_round_off));
+  CHECK(fit.field->at(20.0, 46.0).value == tests::about(removal(crowned, frame, 60.0, 46.0) - missing, grid_round_off));
 }
 
 TEST_CASE("A deviation that is bilinear in roll length and z comes back exactly from an uneven 2 x 2 grid", "[core][flank][grid][closed-form]") {

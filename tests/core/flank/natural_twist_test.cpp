@@ -9,6 +9,7 @@
 #include "tests/core/effects/instruction_count.hpp"
 #include "tests/core/flank/grinding_simulation.hpp"
 #include "tests/core/gear/pair_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -110,16 +111,16 @@ TEST_CASE("Crowning that is generated twists by 8 C tan(beta_b) g_alpha / b", "[
   // The sign is that of the helix in the flank's own frame: removed more at the tip where the line of contact reaches the tip last.
   const double sense = pair.flank_frame(member).helix_rate > 0.0 ? 1.0 : -1.0;
   constexpr double round_off = 1e-15;
-  CHECK(natural_twist(pair, member, m) == Approx(sense * 8.0 * m.lead_crowning * tan_base_helix * g / b).margin(round_off));
+  CHECK(natural_twist(pair, member, m) == tests::about(sense * 8.0 * m.lead_crowning * tan_base_helix * g / b, round_off));
   CHECK(contact_shift_over_profile(pair, member, m.process) == Approx(-sense * tan_base_helix * g).epsilon(1e-13));
   // At mid profile the lead is as drawn; at mid face the profile gets a crowning of C (2 h/b)^2.
   const auto field = make_natural_twist_field(pair, member, m);
   for (const double z : {-50.0, -7.0, 31.0}) CHECK(std::abs(field->at(roll_at(pair[member], 0.5), z).value) <= round_off);
   for (const double share : {0.0, 1.0}) {
-    CHECK(field->at(roll_at(pair[member], share), 0.0).value == Approx(m.lead_crowning * std::pow(tan_base_helix * g / b, 2)).margin(round_off));
+    CHECK(field->at(roll_at(pair[member], share), 0.0).value == tests::about(m.lead_crowning * std::pow(tan_base_helix * g / b, 2), round_off));
   }
   CHECK(natural_twist(pair, member, with_process(crowned(), GrindingKind::GeneratingGrinding, 0.25)) ==
-        Approx(0.75 * natural_twist(pair, member, m)).margin(round_off));
+        tests::about(0.75 * natural_twist(pair, member, m), round_off));
 }
 
 TEST_CASE("A lead slope that is generated keeps the normal base pitch of the tool", "[core][flank][grinding][closed-form]") {

@@ -8,6 +8,7 @@
 #include "core/flank/generated_field.hpp"
 #include "core/gear/tool_section.hpp"
 #include "tests/core/flank/rolling.hpp"
+#include "tests/common/about.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -264,7 +265,7 @@ TEST_CASE("TM-100260's pinion has a transmission error of 0.32 arcsec peak to pe
   const GearPair pair = make_gear_pair(data);
   const double half_pitch = units::pi / data.pinion.teeth;
   const double peak = parabola_of_arc(pair, Member::Pinion, paper_tool().arc_radius) * half_pitch * half_pitch;
-  CHECK(peak / units::arcsec == Approx(0.32).margin(0.005));  // model: two printed digits
+  CHECK(peak / units::arcsec == tests::about(0.32, 0.005));  // model: two printed digits
 }
 
 TEST_CASE("A straight-sided tool gives no parabola, and an arc has a radius", "[core][flank]") {

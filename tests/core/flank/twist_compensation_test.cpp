@@ -6,6 +6,7 @@
 #include "core/flank/natural_twist.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/gear/pair_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -104,7 +105,7 @@ TEST_CASE("The derivative by a compensation takes the twist away in proportion",
     for (const double z : {-60.0, 11.0, 60.0}) {
       const double r = compensated_radius(gear, share), h = -sense * std::tan(pair.base_helix_angle) * (gear.roll_length_at(r) - middle);
       constexpr double round_off = 1e-15;  // mm
-      CHECK(derivative.at(r, z) == Approx(2.0 * m.lead_crowning * (4.0 / (b * b)) * (z - 0.6 * h) * h).margin(round_off));
+      CHECK(derivative.at(r, z) == tests::about(2.0 * m.lead_crowning * (4.0 / (b * b)) * (z - 0.6 * h) * h, round_off));
     }
   }
 }

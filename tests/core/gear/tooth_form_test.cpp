@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using units::deg;
@@ -61,8 +62,8 @@ TEST_CASE("The involute starts where Haddad's finite-element gears start theirs"
   constexpr double kModel = 1e-3;  // model: printed to 1e-3 mm
   const GeneratedProfile small = generated_profile(gear_of(18, 0, 0.39), module, 20 * deg, 30 * deg);
   const GeneratedProfile large = generated_profile(gear_of(40, 0, 0.39), module, 20 * deg, 30 * deg);
-  CHECK(small.form_radius == Approx(96.916).margin(kModel));
-  CHECK(large.form_radius == Approx(222.267).margin(kModel));
+  CHECK(small.form_radius == tests::about(96.916, kModel));
+  CHECK(large.form_radius == tests::about(222.267, kModel));
   CHECK_FALSE(small.undercut);
   CHECK_FALSE(large.undercut);
 }
@@ -86,7 +87,7 @@ TEST_CASE("The profile is the boundary of what a rolling rack sweeps", "[core][g
     // Discretisation: the minimum over samples overshoots by the square of their spacing; a sharp corner is sampled
     // exactly.
     constexpr double kDiscretisation = 1e-7;
-    CHECK(form.half_angle(radius) == Approx(swept_half_angle(gear, module, alpha, beta, radius)).margin(kDiscretisation));
+    CHECK(form.half_angle(radius) == tests::about(swept_half_angle(gear, module, alpha, beta, radius), kDiscretisation));
   }
 }
 
@@ -99,9 +100,9 @@ TEST_CASE("Fillet and involute share point and tangent unless the tooth is under
   const ProfilePoint fillet = form.fillet_point(form.fillet_start());
   const ProfilePoint involute = form.at_radius(form.form_radius());
   const double kRoundOff = 1e-11 * form.tip_radius();  // the roll length of the start is a difference of lengths
-  CHECK(fillet.x == Approx(involute.x).margin(kRoundOff));
-  CHECK(fillet.y == Approx(involute.y).margin(kRoundOff));
-  CHECK(fillet.tangent_angle == Approx(involute.tangent_angle).margin(1e-10));
+  CHECK(fillet.x == tests::about(involute.x, kRoundOff));
+  CHECK(fillet.y == tests::about(involute.y, kRoundOff));
+  CHECK(fillet.tangent_angle == tests::about(involute.tangent_angle, 1e-10));
 }
 
 TEST_CASE("An undercut fillet crosses the involute at the form radius, at an angle", "[core][gear][tooth-form]") {
@@ -111,8 +112,8 @@ TEST_CASE("An undercut fillet crosses the involute at the form radius, at an ang
   const ProfilePoint fillet = form.fillet_point(form.fillet_start());
   const ProfilePoint involute = form.at_radius(form.form_radius());
   constexpr double kRoundOff = 1e-11;
-  CHECK(fillet.x == Approx(involute.x).margin(kRoundOff));
-  CHECK(fillet.y == Approx(involute.y).margin(kRoundOff));
+  CHECK(fillet.x == tests::about(involute.x, kRoundOff));
+  CHECK(fillet.y == tests::about(involute.y, kRoundOff));
   CHECK(fillet.tangent_angle < involute.tangent_angle - 0.1);
 }
 
@@ -124,12 +125,12 @@ TEST_CASE("The fillet's tangent is its derivative and its normal meets the rolli
     const double step = 1e-5;
     const ProfilePoint p = form.fillet_point(lambda), a = form.fillet_point(lambda - step), b = form.fillet_point(lambda + step);
     constexpr double kDiscretisation = 1e-8;  // central difference
-    CHECK(p.tangent_angle == Approx(std::atan2(b.x - a.x, a.y - b.y)).margin(kDiscretisation));
+    CHECK(p.tangent_angle == tests::about(std::atan2(b.x - a.x, a.y - b.y), kDiscretisation));
     // Law of gearing: the rolling point that belongs to this position lies on the normal.
     const double theta = lambda - p.tangent_angle;
     const double r = form.reference_radius();
     const double along = (r * std::sin(theta) - p.x) * std::sin(p.tangent_angle) - (r * std::cos(theta) - p.y) * std::cos(p.tangent_angle);
-    CHECK(along == Approx(0).margin(1e-12 * r));  // round-off
+    CHECK(along == tests::about(0, 1e-12 * r));  // round-off
   }
 }
 
@@ -158,7 +159,7 @@ TEST_CASE("Undercut begins at the classical number of teeth", "[core][gear][toot
 TEST_CASE("The 30 degree tangent of the normal section is 33.69 degrees in Haddad's transverse section", "[core][gear][reference]") {
   const ToothForm form(gear_of(18, 0, 0.39), 10, 20 * deg, 30 * deg);
   const ProfilePoint p = form.root_tangent_point(30 * deg);
-  CHECK(p.tangent_angle / deg == Approx(33.69).margin(0.005));  // model: printed to 0.01 deg
+  CHECK(p.tangent_angle / deg == tests::about(33.69, 0.005));  // model: printed to 0.01 deg
   CHECK(std::hypot(p.x, p.y) < form.form_radius());
   CHECK(std::hypot(p.x, p.y) > form.root_radius());
 }

@@ -9,6 +9,7 @@
 #include "core/rating/edge_contact_start.hpp"
 #include "core/rating/load_sharing.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -40,7 +41,7 @@ TEST_CASE("A tip rounding ends the flank where its arc touches it", "[core][gear
   const double roll = rho + std::sqrt((centre - gear.base_radius) * (centre + gear.base_radius));
   const double expected = std::hypot(gear.base_radius, roll);
   const double curvature = rho * rho / gear.base_radius;  // of flank and tip circle over the arc, left out
-  CHECK(gear.tip_form_radius == Approx(expected).margin(curvature));
+  CHECK(gear.tip_form_radius == tests::about(expected, curvature));
   CHECK(gear.tip_edge_radius == rho);
   CHECK(pair.path_end < sharp.path_end);
   CHECK(pair.path_start > sharp.path_start);
@@ -71,7 +72,7 @@ TEST_CASE("A chamfer ends the flank where the arc of its edge touches it", "[cor
     const double q = 0.5 * (low + high);
     (normal.dot(inside(q, rho) - corner) < -rho ? low : high) = q;
   }
-  CHECK(gear.tip_form_radius == Approx(std::hypot(rb, low)).margin(rho * rho / rb));  // the flank's bend over the arc, left out
+  CHECK(gear.tip_form_radius == tests::about(std::hypot(rb, low), rho * rho / rb));  // the flank's bend over the arc, left out
   CHECK(gear.tip_form_radius < sharp.pinion.tip_form_radius);
 }
 
@@ -262,7 +263,7 @@ TEST_CASE("Between few mesh positions the torque at which edge contact begins is
     const EdgeContactStart coarse = start(positions), found = edge_contact_start_near(at, condition, torque, coarse, 1.0 / positions);
     CHECK(found.torque <= coarse.torque);
     // Discretisation: phases beside the start lie as close as those of 256 positions.
-    CHECK(found.torque == Approx(start(256).torque).margin(2 * sought));
+    CHECK(found.torque == tests::about(start(256).torque, 2 * sought));
     CHECK(found.gear == coarse.gear);
   }
 }

@@ -6,6 +6,7 @@
 
 #include "core/rating/film_thickness.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -81,7 +82,7 @@ TEST_CASE("The flash temperature is that of a moving band of friction heat", "[c
 }
 
 TEST_CASE("Nothing flashes where nothing slides or nothing is loaded", "[core][rating][flash]") {
-  CHECK(flash_at(0.0, 500.0, hot_condition(1500)) == Approx(0.0).margin(1e-9));  // round-off of the two speeds
+  CHECK(flash_at(0.0, 500.0, hot_condition(1500)) == tests::about(0.0, 1e-9));  // round-off of the two speeds
   CHECK(flash_at(5.0, 0.0, hot_condition(1500)) == 0.0);
   CHECK(flash_at(5.0, 500.0, hot_condition(0.0)) == 0.0);
   CHECK(flash_at(5.0, 500.0, hot_condition(1500, 0.0)) == 0.0);

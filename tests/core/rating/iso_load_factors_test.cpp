@@ -5,6 +5,7 @@
 
 #include "core/load/cycle/mesh_motion.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -25,7 +26,7 @@ TEST_CASE("ISO's misalignment is the linear part of the gap along the face", "[c
   constexpr double kRoundOff = 1e-12;
   const GearPair& gears = haddad();
   FlankCondition c;
-  CHECK(iso_deviations(gears, c).misalignment == Approx(0).margin(1e-15));
+  CHECK(iso_deviations(gears, c).misalignment == tests::about(0, 1e-15));
   c.misalignment.mesh_misalignment = -7 * units::um;
   CHECK(iso_deviations(gears, c).misalignment == Approx(7 * units::um).epsilon(kRoundOff));
   // Crowning, reliefs and profiles are not linear along the face.
@@ -36,7 +37,7 @@ TEST_CASE("ISO's misalignment is the linear part of the gap along the face", "[c
   // A lead slope that removes where the misalignment closes takes it back, an error that adds there takes it on.
   c.modification.pinion.lead_slope = -7 * units::um;  // removes at -z, where the mesh is closed
   c.misalignment.mesh_misalignment = 7 * units::um;   // opens at +z
-  CHECK(iso_deviations(gears, c).misalignment == Approx(0).margin(1e-15));
+  CHECK(iso_deviations(gears, c).misalignment == tests::about(0, 1e-15));
   c.error.wheel.helix_slope = -3 * units::um;
   CHECK(iso_deviations(gears, c).misalignment == Approx(3 * units::um).epsilon(kRoundOff));
   // Teeth that differ: the worst of them.
@@ -94,7 +95,7 @@ TEST_CASE("ISO's K_Halpha ends at the thesis' limit and falls with K_Hbeta", "[c
   // Haddad, section 4.3.2: the limit is 3.26 for this pair.
   const IsoLoadFactors large = factors_for({0, 200 * units::um});
   CHECK(large.profile == large.profile_limit);
-  CHECK(large.profile_limit == Approx(3.26).margin(0.005));
+  CHECK(large.profile_limit == tests::about(3.26, 0.005));
   CHECK(large.running_in == 3 * units::um);
   // F_tH grows with K_Hbeta, so that the factors are not independent (section 1.2.2).
   const IsoLoadFactors pitch = factors_for({0, 15 * units::um}), both = factors_for({10 * units::um, 15 * units::um});
@@ -125,7 +126,7 @@ TEST_CASE("To ISO a mesh that its shafts open is one that is misaligned as much"
   slope.modification.pinion.lead_slope = 20 * units::um;
   const double opened = iso_deviations(gears, misaligned).misalignment;
   CHECK(iso_deviations(gears, {}, 12 * units::um).misalignment == Approx(opened).epsilon(1e-12));
-  CHECK(iso_deviations(gears, misaligned, -12 * units::um).misalignment == Approx(0).margin(1e-15));  // round-off
+  CHECK(iso_deviations(gears, misaligned, -12 * units::um).misalignment == tests::about(0, 1e-15));  // round-off
   CHECK(iso_deviations(gears, misaligned, 3 * units::um).misalignment == Approx(1.25 * opened).epsilon(1e-12));
   // The slope removes metal at +z, as what opens the mesh there does.
   const double by_slope = iso_deviations(gears, slope).misalignment;

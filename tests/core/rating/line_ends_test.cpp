@@ -7,6 +7,7 @@
 #include "core/base/natural_spline.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using mesh_cases::torque_for;
@@ -31,9 +32,9 @@ const std::vector<PrintedLine> printed_lines{
 TEST_CASE("Structural deflections at line ends are the thesis' by a natural cubic spline", "[core][load][line-ends][haddad]") {
   constexpr double kDigits = 3e-3;  // um: the last digits of four to six values, carried outwards
   for (const PrintedLine& line : printed_lines) {
-    CHECK(NaturalSpline(line.z, line.bending)(line.end) == Approx(line.bending_there).margin(kDigits));
+    CHECK(NaturalSpline(line.z, line.bending)(line.end) == tests::about(line.bending_there, kDigits));
     // On the path and without errors the contact deflection is what bending leaves of f_t.
-    CHECK(line.transmission_error - line.bending_there == Approx(line.contact_there).margin(2e-3));
+    CHECK(line.transmission_error - line.bending_there == tests::about(line.contact_there, 2e-3));
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/common/random.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -194,7 +195,7 @@ TEST_CASE("The speed of a level is that of its load cycles, however long the pin
     const double fast = 10.0 * turns, slow = 90.0 * creep;  // revolutions
     CHECK(count.levels.front().cycles == Approx(fast + slow).epsilon(step * turns));
     CHECK(count.levels.front().speed == Approx(one_turn * (fast * turns + slow * creep) / (fast + slow)).epsilon(step * turns));
-    CHECK(count.standing_duration == Approx(creep > 0.0 ? 0.0 : 90.0).margin(2.0 * step));
+    CHECK(count.standing_duration == tests::about(creep > 0.0 ? 0.0 : 90.0, 2.0 * step));
   }
   // A speed that rises evenly from 0: two thirds of its end, by the revolutions that it makes.
   CHECK(count_time_at_level({{0.0, 8.0}, {1.0, 1.0}, {0.0, 3.0}}, 1).levels.front().speed == Approx(2.0).epsilon(round_off));

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using mesh_cases::mesh_of;
@@ -112,8 +113,8 @@ TEST_CASE("Where one spur pair carries all, peak stress follows the root of the 
   const double torque = torque_for(gears, kTorque);
   const ContactPeaks peaks = locate_peaks(mesh, {}, torque);
   const PeakGradients gradients = peak_gradients(mesh, {}, torque, peaks, {PinionTorque{}});
-  CHECK(gradients.without_spikes.contact_stress[0] * torque / peaks.without_spikes.contact_stress.value == Approx(0.5).margin(kRoundOff));
-  CHECK(gradients.without_spikes.line_load[0] * torque / peaks.without_spikes.line_load.value == Approx(1.0).margin(kRoundOff));
+  CHECK(gradients.without_spikes.contact_stress[0] * torque / peaks.without_spikes.contact_stress.value == tests::about(0.5, kRoundOff));
+  CHECK(gradients.without_spikes.line_load[0] * torque / peaks.without_spikes.line_load.value == tests::about(1.0, kRoundOff));
 }
 
 TEST_CASE("K_Hbeta by line loads has exact derivatives where its peak stays at a face end", "[core][load][peaks][gradient]") {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/core/load/mesh_cases.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -70,7 +71,7 @@ TEST_CASE("A line load at the pitch point slides nowhere, and sliding grows away
     set_rolls(gears, gears.pitch_point + away, gears.path_length - gears.pitch_point - away, point);
     const double sliding = relative_sliding(gears, point);
     // v_g = (omega_1 + omega_2) g, v_tb = omega_1 r_b1
-    CHECK(sliding == Approx(away * (1.0 + 0.5) / gears.pinion.base_radius).margin(1e-12));
+    CHECK(sliding == tests::about(away * (1.0 + 0.5) / gears.pinion.base_radius, 1e-12));
     CHECK(sliding > last);
     last = sliding;
   }

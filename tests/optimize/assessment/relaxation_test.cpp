@@ -6,6 +6,7 @@
 
 #include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
+#include "tests/common/about.hpp"
 
 namespace flankwright {
 namespace {
@@ -60,7 +61,7 @@ TEST_CASE("Where no design keeps the limits, what would help brings the gain tha
   REQUIRE(relaxation.limits.size() == 2);
   for (const Relaxation::Limit& limit : relaxation.limits) {
     CHECK(limit.constraint == 0);
-    CHECK(limit.weight == Approx(0.5).margin(0.01));  // the optimality of the design, 1e-4, over the slopes that balance
+    CHECK(limit.weight == tests::about(0.5, 0.01));  // the optimality of the design, 1e-4, over the slopes that balance
   }
 
   REQUIRE_FALSE(relaxation.moves.empty());

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/optimize/design_tasks.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::design_tasks;
@@ -31,7 +32,7 @@ TEST_CASE("Relief starts where its length of path ends", "[optimize][assessment]
   for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
     const double start_radius = gear->tip_radius - relief_height(*gear, length);
     constexpr double round_off = 1e-12;
-    CHECK(gear->roll_length_at(gear->tip_radius) - gear->roll_length_at(start_radius) == Approx(length).margin(round_off * gear->tip_radius));
+    CHECK(gear->roll_length_at(gear->tip_radius) - gear->roll_length_at(start_radius) == tests::about(length, round_off * gear->tip_radius));
   }
 }
 
@@ -40,8 +41,8 @@ TEST_CASE("Short relief of the thesis' pair reaches about 2.5 mm below the tip, 
   const NamedDesign design = named(rules_of_thumb(problem.task(), rule_basis(problem)), "short tip relief");
   // Section 4.3.3: "about 2.5 mm", and that 5 .. 6 mm is "nearly twice" as much: model error, half a millimetre.
   constexpr double published = 2.5, scatter = 0.6;
-  CHECK(design.modification.pinion.tip_relief.height == Approx(published).margin(scatter));
-  CHECK(design.modification.wheel.tip_relief.height == Approx(published).margin(scatter));
+  CHECK(design.modification.pinion.tip_relief.height == tests::about(published, scatter));
+  CHECK(design.modification.wheel.tip_relief.height == tests::about(published, scatter));
 }
 
 TEST_CASE("Long relief starts at the pitch point", "[optimize][assessment]") {

@@ -10,6 +10,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "tests/common/about.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -226,7 +227,7 @@ TEST_CASE("Unloaded results keep the identities of transmission error and units"
       for (const json& position : pair["positions"]) {
         // delta phi2 = phi2 - N1/N2 phi1; round-off of angles of some degrees, seen in arcsec.
         const double te = (position["phi2_deg"].get<double>() - 18.0 / 54.0 * position["phi1_deg"].get<double>()) * 3600.0;
-        CHECK(position["te_arcsec"].get<double>() == Approx(te).margin(1e-9));
+        CHECK(position["te_arcsec"].get<double>() == tests::about(te, 1e-9));
       }
     }
   }

@@ -8,6 +8,7 @@
 #include "studies/results/drawing_sheet.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "tests/common/about.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -46,7 +47,7 @@ TEST_CASE("The band of a K-chart is as wide as the total tolerance of the class"
       REQUIRE(n == drawing.profiles[1].along.size());
       for (std::size_t i = 0; i < n; ++i) {
         const double width = (band[band.size() - 1 - i].second - band[i].second) * um_per_unit;
-        CHECK(width == Approx(total / units::um).margin(2.0 * 0.001 * um_per_unit));  // coordinates have three decimals
+        CHECK(width == tests::about(total / units::um, 2.0 * 0.001 * um_per_unit));  // coordinates have three decimals
       }
     }
   }
@@ -59,7 +60,7 @@ TEST_CASE("Traces of a crowned flank are its parabolas, metal added", "[studies]
   const FlankTrace& helix = drawing.helices[1];
   const double middle = helix.deviation[helix.deviation.size() / 2], b = helix.along.back() - helix.along.front();
   for (std::size_t i = 0; i < helix.along.size(); ++i) {
-    CHECK(helix.deviation[i] - middle == Approx(-8.0 * units::um * std::pow(2.0 * helix.along[i] / b, 2)).margin(round_off));
+    CHECK(helix.deviation[i] - middle == tests::about(-8.0 * units::um * std::pow(2.0 * helix.along[i] / b, 2), round_off));
   }
 }
 
@@ -137,7 +138,7 @@ TEST_CASE("Each trace of a flank that its process twists lies in the middle of i
     REQUIRE(band.size() == 2 * line.size());
     for (std::size_t i = 0; i < line.size(); ++i) {
       // Coordinates have three decimals.
-      CHECK(0.5 * (band[i].second + band[band.size() - 1 - i].second) == Approx(line[i].second).margin(0.0015));
+      CHECK(0.5 * (band[i].second + band[band.size() - 1 - i].second) == tests::about(line[i].second, 0.0015));
       CHECK(band[i].second < line[i].second);
     }
     if (trace < 3) tips.push_back(line.back().second - line.front().second);
@@ -157,29 +158,29 @@ TEST_CASE("A drawing states what grinding brings with a lead slope and with crow
   const FlankDrawing sloped = make_drawing(pair, Member::Pinion, ground(14.0, 0.0), {.tolerance_class = 6});
   const auto [slope, why] = lines_with(sloped, "C_Hα, profile slope");
   // C_Hbeta tan(beta_b) g_alpha/b
-  CHECK(std::abs(number_behind(slope, "= ")) == Approx(14.0 * shift).margin(decimal));
+  CHECK(std::abs(number_behind(slope, "= ")) == tests::about(14.0 * shift, decimal));
   CHECK_THAT(slope, Catch::Contains("+ removes at the tip"));
   CHECK_THAT(why, Catch::Contains("grinding process"));
-  CHECK(number_behind(lines_with(sloped, "C_Hβ, lead slope").first, "= ") == Approx(14.0).margin(decimal));
+  CHECK(number_behind(lines_with(sloped, "C_Hβ, lead slope").first, "= ") == tests::about(14.0, decimal));
 
   const FlankDrawing crowned = make_drawing(pair, Member::Pinion, ground(0.0, 20.0), {.tolerance_class = 6});
   const auto twist = lines_with(crowned, "S_α, twist").first;
   // 8 C_beta tan(beta_b) g_alpha/b, and a profile crowning of C_beta (tan(beta_b) g_alpha/b)^2
-  CHECK(std::abs(number_behind(twist, "= ")) == Approx(8.0 * 20.0 * shift).margin(decimal));
-  CHECK(number_behind(twist, "= ") == Approx(natural_twist(pair, Member::Pinion, ground(0.0, 20.0)) / units::um).margin(decimal));
-  CHECK(number_behind(lines_with(crowned, "C_α, profile crowning").first, "= ") == Approx(20.0 * shift * shift).margin(decimal));
+  CHECK(std::abs(number_behind(twist, "= ")) == tests::about(8.0 * 20.0 * shift, decimal));
+  CHECK(number_behind(twist, "= ") == tests::about(natural_twist(pair, Member::Pinion, ground(0.0, 20.0)) / units::um, decimal));
+  CHECK(number_behind(lines_with(crowned, "C_α, profile crowning").first, "= ") == tests::about(20.0 * shift * shift, decimal));
 
   // The helix in the middle of the profile is the crowning alone; those beside it lean.
   const auto lean = [&](std::size_t trace) { return crowned.helices[trace].deviation.back() - crowned.helices[trace].deviation.front(); };
   constexpr double round_off = 1e-9;  // mm: the middle of the profile from two roots
-  CHECK(lean(1) == Approx(0.0).margin(round_off));
+  CHECK(lean(1) == tests::about(0.0, round_off));
   CHECK(lean(0) * lean(2) < 0.0);
 
   // A profile slope that is set against it leaves nothing of it.
   Modification corrected = ground(14.0, 0.0);
   set(corrected, parameter_of("profile_slope"), -number_behind(slope, "= ") * units::um);
   const auto rest = lines_with(make_drawing(pair, Member::Pinion, corrected, {.tolerance_class = 6}), "C_Hα, profile slope");
-  CHECK(number_behind(rest.first, "= ") == Approx(0.0).margin(decimal));
+  CHECK(number_behind(rest.first, "= ") == tests::about(0.0, decimal));
   CHECK_THAT(rest.second, Catch::Contains("set ") && Catch::Contains("brings "));
 }
 
@@ -193,14 +194,14 @@ TEST_CASE("The band of an amount is written beside it and widens the K-chart whe
   CHECK_THAT(lines_with(drawing, "tip relief =").first, Catch::Contains("C_αa, tip relief = 22.0 ± 3.0 µm"));
   const FlankTrace& profile = drawing.profiles[1];
   constexpr double round_off = 1e-12;  // mm
-  CHECK(profile.high.front() - profile.low.front() == Approx(drawing.tolerances.profile_total).margin(round_off));
-  CHECK(profile.high.back() - profile.low.back() == Approx(drawing.tolerances.profile_total + 6.0 * units::um).margin(round_off));
+  CHECK(profile.high.front() - profile.low.front() == tests::about(drawing.tolerances.profile_total, round_off));
+  CHECK(profile.high.back() - profile.low.back() == tests::about(drawing.tolerances.profile_total + 6.0 * units::um, round_off));
   // More may be removed than added.
   const DrawingTerms uneven{.tolerance_class = 6, .amounts = {{"tip_relief.amount", -1.0 * units::um, 4.0 * units::um}}};
   const FlankDrawing other = make_drawing(pair, Member::Pinion, m, uneven);
   CHECK_THAT(lines_with(other, "tip relief =").first, Catch::Contains("22.0 +4.0 -1.0 µm"));
   CHECK(other.profiles[1].deviation.back() - other.profiles[1].low.back() ==
-        Approx(0.5 * other.tolerances.profile_total + 4.0 * units::um).margin(round_off));
+        tests::about(0.5 * other.tolerances.profile_total + 4.0 * units::um, round_off));
 }
 
 TEST_CASE("The tolerance of a relief ends at 0, and the drawing says so", "[studies][drawing]") {
@@ -216,7 +217,7 @@ TEST_CASE("The tolerance of a relief ends at 0, and the drawing says so", "[stud
   CHECK_THAT(below, Catch::Contains("goes down to -1.0 µm; the least that can be ground is 0"));
   // At the tip the band reaches the flank without relief, not one with metal added.
   const FlankTrace& tip = amount.profiles[1];
-  CHECK(tip.high.back() - tip.deviation.back() == Approx(0.5 * amount.tolerances.profile_total + 2.0 * units::um).margin(round_off));
+  CHECK(tip.high.back() - tip.deviation.back() == tests::about(0.5 * amount.tolerances.profile_total + 2.0 * units::um, round_off));
   const FlankDrawing height = make_drawing(pair, Member::Pinion, m, {.tolerance_class = 6, .amounts = {{"tip_relief.height", -2.0, 0.5}}});
   CHECK_THAT(lines_with(height, "tip relief height").first, Catch::Contains("= 1.50 +0.50 -1.50 mm"));
   CHECK_THAT(lines_with(height, "goes down to").first, Catch::Contains("-0.50 mm"));
@@ -244,8 +245,8 @@ TEST_CASE("A relief begins at a diameter and a roll length that are the same poi
   const auto [height, start] = lines_with(make_drawing(pair, Member::Pinion, m, {.tolerance_class = 6}), "tip relief height");
   const double diameter = number_behind(start, "d_Ca = "), roll = number_behind(start, "roll length ");
   constexpr double written = 1e-3;  // mm: three decimals of either
-  CHECK(diameter == Approx(2.0 * (pair.pinion.tip_form_radius - 2.0)).margin(written));
-  CHECK(std::hypot(roll, pair.pinion.base_radius) == Approx(0.5 * diameter).margin(written));
+  CHECK(diameter == tests::about(2.0 * (pair.pinion.tip_form_radius - 2.0), written));
+  CHECK(std::hypot(roll, pair.pinion.base_radius) == tests::about(0.5 * diameter, written));
 }
 
 TEST_CASE("A triangular relief begins on the face end at a diameter whose roll is as far from the tip as it says", "[studies][drawing]") {
@@ -256,8 +257,8 @@ TEST_CASE("A triangular relief begins on the face end at a diameter whose roll i
   const auto [height, start] = lines_with(make_drawing(pair, Member::Pinion, m, {.tolerance_class = 6}), "triangular tip relief height");
   const double radius = 0.5 * number_behind(start, "d_Ea = "), extent = number_behind(start, "L_Ea = ");
   constexpr double written = 1e-3;  // mm: three decimals of either
-  CHECK(radius == Approx(pair.pinion.tip_form_radius - 2.0).margin(written));
-  CHECK(pair.pinion.roll_length_at(pair.pinion.tip_form_radius) - pair.pinion.roll_length_at(radius) == Approx(extent).margin(2.0 * written));
+  CHECK(radius == tests::about(pair.pinion.tip_form_radius - 2.0, written));
+  CHECK(pair.pinion.roll_length_at(pair.pinion.tip_form_radius) - pair.pinion.roll_length_at(radius) == tests::about(extent, 2.0 * written));
 }
 
 TEST_CASE("Where one tool grinds both flanks the drawing has the other one's slope and twist, with the opposite sign", "[studies][drawing]") {
@@ -268,8 +269,8 @@ TEST_CASE("Where one tool grinds both flanks the drawing has the other one's slo
     const auto line = std::find_if(other, drawing.lines.end(), [&](const std::string& text) { return text.find(name) != std::string::npos; });
     return line == drawing.lines.end() ? std::nan("") : number_behind(*line, "= ");
   };
-  CHECK(behind("C_Hβ, lead slope") == Approx(-14.0).margin(0.05));
-  CHECK(behind("S_α, twist") == Approx(-number_behind(lines_with(drawing, "S_α, twist").first, "= ")).margin(0.05));
+  CHECK(behind("C_Hβ, lead slope") == tests::about(-14.0, 0.05));
+  CHECK(behind("S_α, twist") == tests::about(-number_behind(lines_with(drawing, "S_α, twist").first, "= "), 0.05));
   // The helix angle brings the same profile slope to both, and crowning is even.
   CHECK(std::isnan(behind("C_Hα, profile slope")));
   CHECK(std::isnan(behind("C_β, lead crowning")));

@@ -6,6 +6,7 @@
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "tests/common/about.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -174,7 +175,7 @@ TEST_CASE("Derivatives keep what the loads keep", "[studies][gradient]") {
           // Where load is borne the flanks stay together: gap and deflections make up f_t.
           const double together = slope.at("gap_um").at(p).get<double>() + slope.at("contact_deflection_um").at(p).get<double>() +
                                   slope.at("structural_deflection_um").at(p).get<double>();
-          CHECK(together == Approx(gradients.at("cycle").at(k).at("te_um").at(p).get<double>()).margin(kRoundOff));
+          CHECK(together == tests::about(gradients.at("cycle").at(k).at("te_um").at(p).get<double>(), kRoundOff));
         }
       }
       CHECK(std::abs(by_share) <= kRoundOff);

@@ -12,6 +12,7 @@
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "tests/common/about.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -130,7 +131,7 @@ TEST_CASE("Ellipses belong to contact inside both flanks and lie in their common
             CHECK(std::hypot(up, along) <= 1.0 + 1e-12);  // parts of a unit vector
           }
           // Gear axes are parallel to 12 arcmin, so both see the same axial part; where one goes up the other goes down.
-          CHECK(ellipse[axis]["pinion"]["z"].get<double>() == Approx(ellipse[axis]["wheel"]["z"].get<double>()).margin(4e-3));
+          CHECK(ellipse[axis]["pinion"]["z"].get<double>() == tests::about(ellipse[axis]["wheel"]["z"].get<double>(), 4e-3));
           CHECK(ellipse[axis]["pinion"]["radius"].get<double>() * ellipse[axis]["wheel"]["radius"].get<double>() <= 0.0);
         }
       }
@@ -218,7 +219,7 @@ TEST_CASE("A flank that is too thin everywhere shifts the transmission error and
   constexpr double round_off = 1e-6;  // um, angles of some degrees on 160 mm
   const json& te = nominal["unloaded"]["mesh"]["te_um"];
   for (std::size_t i = 0; i < te.size(); ++i) {
-    CHECK(thin["unloaded"]["mesh"]["te_um"][i].get<double>() == Approx(te[i].get<double>() - 10.0 / std::cos(base_helix)).margin(round_off));
+    CHECK(thin["unloaded"]["mesh"]["te_um"][i].get<double>() == tests::about(te[i].get<double>() - 10.0 / std::cos(base_helix), round_off));
   }
   // Under load the wheel lags by 10 um more along the normal, with the same loads.
   REQUIRE(thin["loaded"].size() == nominal["loaded"].size());
@@ -233,7 +234,7 @@ TEST_CASE("A flank that is too thin everywhere shifts the transmission error and
     const json& map = results["modifications"][0]["removal_um"];
     return map[map.size() / 2][map[0].size() / 2].get<double>();
   };
-  CHECK(removed_in_the_middle(nominal) == Approx(0.0).margin(round_off));
+  CHECK(removed_in_the_middle(nominal) == tests::about(0.0, round_off));
   CHECK(std::abs(removed_in_the_middle(thin) - 10.0 / std::cos(base_helix)) <= round_off);
   const auto removed_at_the_corner = [](const json& results) { return results["modifications"][0]["removal_um"].back().back().get<double>(); };
   CHECK(std::abs(removed_at_the_corner(thin) - removed_at_the_corner(nominal) - 10.0 / std::cos(base_helix)) <= round_off);

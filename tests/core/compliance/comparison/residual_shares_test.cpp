@@ -6,6 +6,7 @@
 
 #include "core/compliance/fitted/residual_statistics.hpp"
 #include "tests/core/compliance/comparison/distance_compliance.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using flankwright::testing::DistanceCompliance;
@@ -70,7 +71,7 @@ TEST_CASE("A pair without a model value has an infinite residual, and the other 
   CHECK(std::isinf(partial.worst()));
   CHECK(std::isinf(partial.worst_of_own));
   CHECK(partial.pairs == whole.pairs);
-  CHECK(partial.at(0.2) == Approx(whole.at(0.2)).margin(1.01e-4));  // one pair further, a step of this sample
+  CHECK(partial.at(0.2) == tests::about(whole.at(0.2), 1.01e-4));  // one pair further, a step of this sample
   CHECK(std::isinf(residual_statistics(Partial(), {&sample, 1})[0].worst));
 }
 

@@ -11,6 +11,7 @@
 #include "core/compliance/finite_element/influence.hpp"
 #include "tests/core/compliance/finite_element/brick_stress.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::test;
@@ -148,13 +149,13 @@ TEST_CASE("Places along a fillet: arc length of the exact profile", "[core][comp
   constexpr int kChords = 2000;
   double arc = 0;
   ProfilePoint last = form.fillet_point(form.fillet_start());
-  CHECK(fillet.along(last) == Approx(0).margin(1e-6));
+  CHECK(fillet.along(last) == tests::about(0, 1e-6));
   for (int i = 1; i <= kChords; ++i) {
     const ProfilePoint p = form.fillet_point(form.fillet_start() + (units::pi / 2 - form.fillet_start()) * i / kChords);
     arc += std::hypot(p.x - last.x, p.y - last.y);
     last = p;
     // Discretisation: three quadratic edges for the whole fillet.
-    if (i % 400 == 0) CHECK(fillet.along(p) * fillet.length() == Approx(arc).margin(2e-3 * fillet.length()));
+    if (i % 400 == 0) CHECK(fillet.along(p) * fillet.length() == tests::about(arc, 2e-3 * fillet.length()));
   }
 }
 
@@ -178,7 +179,7 @@ TEST_CASE("The largest principal stress and how it follows its components", "[co
     for (int i = 0; i < 3; ++i) {
       const Eigen::Vector3d h = 1e-5 * Eigen::Vector3d::Unit(i);
       const double difference = (largest_principal(s + h).value - largest_principal(s - h).value) / 2e-5;
-      CHECK(principal_slope(p)[i] == Approx(difference).margin(1e-8));  // discretisation, 1e-10 x third derivative
+      CHECK(principal_slope(p)[i] == tests::about(difference, 1e-8));  // discretisation, 1e-10 x third derivative
     }
   }
   CHECK(largest_principal({2, 2, 0}).value == 2);

@@ -6,6 +6,7 @@
 #include "core/compliance/finite_element/solve_half_space_correction.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -65,7 +66,7 @@ TEST_CASE("Structure, half space and correction are the flank's own deflection i
     for (std::size_t i = 0; i < heights.size(); ++i) {
       CAPTURE(tooth.teeth, tooth.face, heights[i]);
       // Model: load even along the face within the section. 0.045 w/E are 0.35 % of the approach of such a pair.
-      CHECK(at_height(pair, member, heights[i]) == Approx(tooth.left_out[i]).margin(0.045));
+      CHECK(at_height(pair, member, heights[i]) == tests::about(tooth.left_out[i], 0.045));
     }
   }
 }
@@ -74,7 +75,7 @@ TEST_CASE("The correction does not know the size of a gear, and hardly that of a
   const double small = at_height(pair_of(20, 40, 6), Member::Pinion, 0.5);
   CHECK(at_height(pair_of(20, 40, 6, 0, 7.5), Member::Pinion, 0.5) == Approx(small).epsilon(1e-8));  // round-off of solved systems
   const double wide = at_height(pair_of(20, 40, 60), Member::Pinion, 0.5), wider = at_height(pair_of(20, 40, 120), Member::Pinion, 0.5);
-  CHECK(wide == Approx(wider).margin(0.003));  // both ends have 1/60 of their part
+  CHECK(wide == tests::about(wider, 0.003));  // both ends have 1/60 of their part
 }
 
 TEST_CASE("A tooth yields more towards its tip than a half space does, also of a helical gear of the same section",
@@ -88,6 +89,6 @@ TEST_CASE("A tooth yields more towards its tip than a half space does, also of a
   }
   // z_n = z/(cos^2 beta_b cos beta) of 20 teeth at 30 deg is 29.7: the same section as that of 30 spur teeth, whose face is b/cos(beta_b).
   const GearPair helical = pair_of(20, 60, 6 * std::cos(std::asin(std::sin(30 * units::deg) * std::cos(20 * units::deg))), 30);
-  CHECK(helical.pinion.virtual_teeth == Approx(30).margin(0.5));
-  CHECK(at_height(helical, Member::Pinion, 0.5) == Approx(at_height(spur, Member::Pinion, 0.5)).margin(0.01));  // model: the mate's share of u
+  CHECK(helical.pinion.virtual_teeth == tests::about(30, 0.5));
+  CHECK(at_height(helical, Member::Pinion, 0.5) == tests::about(at_height(spur, Member::Pinion, 0.5), 0.01));  // model: the mate's share of u
 }

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/reference/eigenvalues.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -90,7 +91,7 @@ TEST_CASE("A table that is not positive semi-definite is lifted by the least amo
   const Eigen::VectorXd scale = tables[0].diagonal().cwiseSqrt().cwiseInverse().replicate(3, 1);
   const Eigen::MatrixXd scaled = scale.asDiagonal() * k * scale.asDiagonal();
   const Eigen::VectorXd values = symmetric_eigenvalues(scaled);
-  CHECK(values[0] == Approx(0).margin(1e-13));  // round-off: neither below 0 nor above
+  CHECK(values[0] == tests::about(0, 1e-13));  // round-off: neither below 0 nor above
   CHECK(lowest_over_highest(table.evaluate(kScattered)) > -1e-14);
   // Nothing but the own values has moved.
   for (Eigen::Index i = 0; i < k.rows(); ++i) {
@@ -98,7 +99,7 @@ TEST_CASE("A table that is not positive semi-definite is lifted by the least amo
     for (Eigen::Index j = grid.size(); j < k.cols(); ++j) {
       if (i >= grid.size()) continue;
       const double known = tables[static_cast<std::size_t>(j / grid.size())](i, j % grid.size());
-      CHECK(k(i, j) == Approx(known).margin(1e-12));  // round-off of the splines' coefficients
+      CHECK(k(i, j) == tests::about(known, 1e-12));  // round-off of the splines' coefficients
     }
   }
   const InfluenceTable again(grid, table.tables(), projection);

@@ -6,6 +6,7 @@
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/flank/removal.hpp"
 #include "tests/core/flank/sample_flank_frame.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 
@@ -55,8 +56,8 @@ TEST_CASE("A triangular relief removes the same all along a line of contact, and
         of_wheel = here2;
       }
       CAPTURE(line, z, r1, r2);
-      CHECK(here1 == Approx(of_pinion).margin(1e-14));  // round-off of roll lengths of some 20 mm
-      CHECK(here2 == Approx(of_wheel).margin(1e-14));
+      CHECK(here1 == tests::about(of_pinion, 1e-14));  // round-off of roll lengths of some 20 mm
+      CHECK(here2 == tests::about(of_wheel, 1e-14));
     }
     lines_with_removal += of_pinion > 0.0 || of_wheel > 0.0;
   }
@@ -73,7 +74,7 @@ TEST_CASE("A triangular relief removes the same all along a line of contact, and
     return removal(m, pinion, pinion.tip_radius, of_pinion.face_end() - std::copysign(from_end, of_pinion.face_end()));
   };
   CHECK(tip_at(0.5 * of_pinion.reach_along_face()) == Approx(0.25 * 0.020).epsilon(1e-10));
-  CHECK(tip_at(of_pinion.reach_along_face()) == Approx(0.0).margin(1e-15));
+  CHECK(tip_at(of_pinion.reach_along_face()) == tests::about(0.0, 1e-15));
 }
 
 TEST_CASE("Both derivatives of a triangular relief are those of its value", "[core][flank]") {
@@ -87,12 +88,12 @@ TEST_CASE("Both derivatives of a triangular relief are those of its value", "[co
   for (const auto& [r, z] : {std::pair{53.5, -14.2}, std::pair{53.9, -13.0}, std::pair{47.4, 14.6}, std::pair{50.0, 0.0}}) {
     const Jet exact = DeviationFormula(m, {}, frame).at(r, z);
     CAPTURE(r, z);
-    CHECK(exact.u == Approx((value(r + step, z) - value(r - step, z)) / (2 * step)).margin(1e-9));
-    CHECK(exact.v == Approx((value(r, z + step) - value(r, z - step)) / (2 * step)).margin(1e-9));
-    CHECK(exact.uu == Approx((value(r + step, z) - 2 * value(r, z) + value(r - step, z)) / (step * step)).margin(2e-8));
-    CHECK(exact.vv == Approx((value(r, z + step) - 2 * value(r, z) + value(r, z - step)) / (step * step)).margin(2e-8));
+    CHECK(exact.u == tests::about((value(r + step, z) - value(r - step, z)) / (2 * step), 1e-9));
+    CHECK(exact.v == tests::about((value(r, z + step) - value(r, z - step)) / (2 * step), 1e-9));
+    CHECK(exact.uu == tests::about((value(r + step, z) - 2 * value(r, z) + value(r - step, z)) / (step * step), 2e-8));
+    CHECK(exact.vv == tests::about((value(r, z + step) - 2 * value(r, z) + value(r, z - step)) / (step * step), 2e-8));
     const double mixed = value(r + step, z + step) - value(r + step, z - step) - value(r - step, z + step) + value(r - step, z - step);
-    CHECK(exact.uv == Approx(mixed / (4 * step * step)).margin(2e-8));
+    CHECK(exact.uv == tests::about(mixed / (4 * step * step), 2e-8));
   }
   CHECK(value(53.5, -14.2) > 0.0);
   CHECK(value(47.4, 14.6) > 0.0);

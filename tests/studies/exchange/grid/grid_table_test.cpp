@@ -9,6 +9,7 @@
 #include "core/flank/natural_twist.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "tests/common/about.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
@@ -38,8 +39,8 @@ TEST_CASE("A grid for the grinder, read as a measured grid, is the modification"
   const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Pinion, m, {}, "a\nb"), "grid.csv");
   REQUIRE(grid.radii.size() == 9);
   REQUIRE(grid.z.size() == 15);
-  CHECK(grid.radii.front() == Approx(pair.pinion.active_root_radius).margin(1e-6));
-  CHECK(grid.radii.back() == Approx(pair.pinion.tip_radius).margin(1e-6));
+  CHECK(grid.radii.front() == tests::about(pair.pinion.active_root_radius, 1e-6));
+  CHECK(grid.radii.back() == tests::about(pair.pinion.tip_radius, 1e-6));
   CHECK(grid.z.back() == 25.0);
   CHECK_NOTHROW(check_coverage(grid, pair.flank_frame(Member::Pinion)));
   const Flank designed = make_flank(pair, Member::Pinion, m, {});
@@ -64,7 +65,7 @@ TEST_CASE("A grid for the grinder has the natural twist of its process", "[studi
     const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Wheel, m, {9, 15, 0.0}, "ground"), "grid.csv");
     const auto slope = [&](Eigen::Index column) { return grid.deviation(0, column) - grid.deviation(8, column); };  // removed is negative
     // Normal to the flank; four times half of the last digit written.
-    CHECK(slope(14) - slope(0) == Approx(std::cos(pair.base_helix_angle) * natural_twist(pair, Member::Wheel, m)).margin(2e-7));
+    CHECK(slope(14) - slope(0) == tests::about(std::cos(pair.base_helix_angle) * natural_twist(pair, Member::Wheel, m), 2e-7));
     CHECK(std::abs(slope(14) - slope(0)) > 0.003);
   }
 }

@@ -15,6 +15,7 @@
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/common/about.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -146,11 +147,11 @@ TEST_CASE("A scene on the other flank is drawn on that flank, with what the tool
   const auto [lines_alone, flank_alone] = pieces({{"pair.working_flank", "left"}, {"pinion.modification.lead_slope", "-6"}});
   constexpr double round_off = 1e-6;  // of the search for a touch
   REQUIRE(lines.points.size() == lines_alone.points.size());
-  for (std::size_t i = 0; i < lines.points.size(); ++i) CHECK(lines.points[i] == Approx(lines_alone.points[i]).margin(round_off));
+  for (std::size_t i = 0; i < lines.points.size(); ++i) CHECK(lines.points[i] == tests::about(lines_alone.points[i], round_off));
   REQUIRE(flank.points.size() == flank_alone.points.size());
-  for (std::size_t i = 0; i < flank.points.size(); ++i) CHECK(flank.points[i] == Approx(flank_alone.points[i]).margin(round_off));
+  for (std::size_t i = 0; i < flank.points.size(); ++i) CHECK(flank.points[i] == tests::about(flank_alone.points[i], round_off));
   const std::vector<double>&removed = flank.fields.at("removal_um"), &removed_alone = flank_alone.fields.at("removal_um");
-  for (std::size_t i = 0; i < removed.size(); ++i) CHECK(removed[i] == Approx(removed_alone[i]).margin(round_off));
+  for (std::size_t i = 0; i < removed.size(); ++i) CHECK(removed[i] == tests::about(removed_alone[i], round_off));
 }
 
 TEST_CASE("The drawn flanks are the involutes through their contact lines", "[studies][vtk]") {
@@ -182,7 +183,7 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
         const double rolls = pair.pinion.roll_length_at(std::hypot(x, y)) + pair.wheel.roll_length_at(std::hypot(pair.centre_distance - x, y));
         if (drawn == surface.teeth.end() || std::abs(rolls - pair.path_length) > 1e-5) continue;
         for (std::size_t i = 81 * tooth; i < 81 * (tooth + 1); i += 10) {
-          CHECK(start(lines.points, line) == Approx(start(surface.points, i)).margin(1e-9));  // round-off
+          CHECK(start(lines.points, line) == tests::about(start(surface.points, i), 1e-9));  // round-off
         }
         ++compared;
       }

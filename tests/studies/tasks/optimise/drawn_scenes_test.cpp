@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/studies/study_texts.hpp"
+#include "tests/common/about.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
@@ -43,10 +44,10 @@ TEST_CASE("Drawn scenes are the nominal one with its toleranced values replaced 
     CHECK(scene.weight == 1.0);
   }
   // Means of a low-discrepancy sequence: errors of about 1 / samples of the range; sampling error.
-  CHECK(mean == Approx(4.0 * units::um).margin(0.02 * units::um));
+  CHECK(mean == tests::about(4.0 * units::um, 0.02 * units::um));
   CHECK(std::sqrt(squares - mean * mean) == Approx(6.0 * units::um).epsilon(0.01));
   CHECK(helix == Approx(10.0 * units::um).epsilon(0.01));
-  CHECK(tilt == Approx(0.0).margin(0.005 * largest_tilt));
+  CHECK(tilt == tests::about(0.0, 0.005 * largest_tilt));
 }
 
 TEST_CASE("A draw has a scene in each operating state, with the same drawn values", "[studies][assessment][scatter]") {

@@ -9,6 +9,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "studies/results/tables.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/common/about.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
 
 /// Keys of [optimise] beyond the plain objective, and what results.json says of them.
@@ -63,7 +64,7 @@ TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studie
   CHECK(table.variables[table.links[0].as].path == "pinion.modification.lead_crowning");
   CHECK(table.links[0].factor == -1.0);
   CHECK(table.links[0].offset == Approx(0.040).epsilon(optimisation_round_off));
-  CHECK(table.links[0].linked.lower == Approx(0.0).margin(1e-17));
+  CHECK(table.links[0].linked.lower == tests::about(0.0, 1e-17));
   CHECK(table.links[0].linked.upper == Approx(0.040).epsilon(optimisation_round_off));
 }
 
@@ -159,7 +160,7 @@ TEST_CASE("Results have the rounded design, the exact optimum and its optimality
   const double crowning = optimise["after"]["variables"]["pinion.modification.lead_crowning"];
   CHECK(optimise["after"]["tied"]["wheel.modification.lead_crowning"].get<double>() == Approx(40.0 - crowning).epsilon(1e-12));
   const double loss = optimise["after"]["objective"].get<double>() / optimise["exact"]["objective"].get<double>() - 1.0;
-  CHECK(optimise["rounded"]["loss_percent"].get<double>() == Approx(100.0 * loss).margin(1e-9));
+  CHECK(optimise["rounded"]["loss_percent"].get<double>() == tests::about(100.0 * loss, 1e-9));
   CHECK(optimise["starts"].size() == 2);
   CHECK(optimise["optima"].size() >= 1);
   CHECK(optimise["stages"].size() == 2);

@@ -5,6 +5,7 @@
 
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
+#include "tests/common/about.hpp"
 #include "studies/tasks/sweep/sweep_table.hpp"
 
 namespace flankwright::studies {
@@ -77,8 +78,8 @@ TEST_CASE("A linear output gives each parameter its share of the variance, and a
   CHECK(of.deviation == Approx(std::sqrt(5.0)).epsilon(0.01));
   const double share[] = {0.2, 0.0, 0.8};
   for (std::size_t j = 0; j < 3; ++j) {
-    CHECK(of.indices[j].first == Approx(share[j]).margin(0.02));
-    CHECK(of.indices[j].total == Approx(share[j]).margin(0.02));
+    CHECK(of.indices[j].first == tests::about(share[j], 0.02));
+    CHECK(of.indices[j].total == tests::about(share[j], 0.02));
   }
   CHECK(index_warning(statistics).empty());
   CHECK(of.indices[1].total == 0.0);                          // exactly: it does not enter
@@ -92,7 +93,7 @@ TEST_CASE("A linear output gives each parameter its share of the variance, and a
   const std::size_t n = map->columns;
   for (std::size_t ix = 0; ix < n; ++ix) {
     const double x = 800.0 + 400.0 * (static_cast<double>(ix) + 0.5) / static_cast<double>(n);
-    CHECK(map->mean(ix, 0) == Approx(linear({x, 0.0, 4.0 + 4.0 / static_cast<double>(n)})).margin(0.1));
+    CHECK(map->mean(ix, 0) == tests::about(linear({x, 0.0, 4.0 + 4.0 / static_cast<double>(n)}), 0.1));
   }
 }
 
