@@ -73,20 +73,16 @@ std::string read_whole(const std::filesystem::path& file) {
   return text;
 }
 
-std::string read_results(const std::filesystem::path& folder) {
+Json whole_results(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "results.json";
   std::error_code no_status;
   if (!std::filesystem::exists(file, no_status)) {
     throw InvalidInput("folder", folder.string(), "a folder with results.json, as `flankwright run` leaves it");
   }
-  return read_whole(file);
-}
-
-Json whole_results(const std::filesystem::path& folder) {
-  Json results = Json::parse(read_results(folder), nullptr, false);
+  Json results = Json::parse(read_whole(file), nullptr, false);
   const auto has = [&](const char* key) { return results.contains(key); };
   const bool is_whole = results.is_object() && has("given") && has("used") && has("version") && (!has("loaded") || results.at("loaded").is_array());
-  if (!is_whole) throw InvalidInput((folder / "results.json").string(), damaged_results, results_of_a_run);
+  if (!is_whole) throw InvalidInput(file.string(), damaged_results, results_of_a_run);
   return results;
 }
 

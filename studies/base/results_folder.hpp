@@ -26,10 +26,7 @@ std::string read_whole(const std::filesystem::path& file);
 inline constexpr const char* damaged_results = "a damaged or incomplete file";
 inline constexpr const char* results_of_a_run = "results.json as `flankwright run` writes it";
 
-/// results.json of a results folder. Throws InvalidInput where the folder has none.
-std::string read_results(const std::filesystem::path& folder);
-
-/// The same as a document. Throws InvalidInput where it is damaged or not of a run.
+/// results.json of a results folder. Throws InvalidInput where the folder has none, and where it is damaged or not of a run.
 Json whole_results(const std::filesystem::path& folder);
 
 }  // namespace flankwright::studies

@@ -36,7 +36,7 @@ void write_export(const fs::path& file, const std::string& text) {
 }
 
 /// Writes every file of the series. The collections, which name the others, are written last and reported.
-void export_vtk(const std::string& json, const fs::path& results, const fs::path& folder) {
+void export_vtk(const Json& json, const fs::path& results, const fs::path& folder) {
   for (const ExportedFile& file : vtk_series(json, results.string())) {
     const fs::path path = folder / file.name;
     make_folder(path.parent_path());
@@ -46,7 +46,7 @@ void export_vtk(const std::string& json, const fs::path& results, const fs::path
 }
 
 /// Analyses the study once more: stiffness for small vibrations is a derivative that results have only where it was asked for.
-void export_dynamics(const std::string& json, const fs::path& results, const fs::path& folder, std::vector<std::string>& notes) {
+void export_dynamics(const Json& json, const fs::path& results, const fs::path& folder, std::vector<std::string>& notes) {
   Progress progress;
   const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
     progress.show(label, done, total, remark);
@@ -103,7 +103,7 @@ int export_command(const ExportCommand& options) {
   }
   const GridLayout layout = grid_layout(options.grid_points, options.grid_margin);
   const fs::path results = fs::path(options.results) / "results.json";
-  const std::string json = read_results(options.results);
+  const Json json = whole_results(options.results);
   const fs::path folder = options.folder.empty() ? options.results : options.folder;
   make_folder(folder);
   std::vector<std::string> notes;

@@ -105,9 +105,8 @@ Results run(const Study& study, const std::optional<std::filesystem::path>& out,
 
 /// Results as a folder has them.
 Results stored_results(const std::filesystem::path& folder) {
-  const std::string text = read_results(folder);
+  Json document = whole_results(folder);
   try {
-    Json document = Json::parse(text);
     std::vector<std::string> notes = document.at("notes"), requirements = document.at("requirements_not_met");
     return {folder.string(), std::move(document), "", "", std::move(notes), std::move(requirements)};
   } catch (const Json::exception&) {

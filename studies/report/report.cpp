@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "studies/base/results_folder.hpp"
 #include "studies/report/page_template.hpp"
 #include "studies/report/report_assets.hpp"
 #include "studies/report/report_view.hpp"
@@ -61,15 +60,7 @@ std::string text_or(const Json& results, const char* key, const char* fallback) 
   return found != results.end() && found->is_string() ? found->get<std::string>() : fallback;
 }
 
-Json parse(const std::string& text) {
-  Json results = Json::parse(text, nullptr, false);
-  if (results.is_discarded()) throw InvalidInput("results.json", damaged_results, results_of_a_run);
-  return results;
-}
-
 }  // namespace
-
-std::string render_stored_report(const std::string& results_json) { return render_report(parse(results_json)); }
 
 std::string render_report(const Json& results) {
   if (!results.is_object()) throw InvalidInput("results.json", results.type_name(), "a JSON object");

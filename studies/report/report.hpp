@@ -16,8 +16,4 @@ namespace flankwright::studies {
 /// @throws InvalidInput where it is not an object
 std::string render_report(const Json& results);
 
-/// The same of the text of results.json, UTF-8.
-/// @throws InvalidInput where the text is not a JSON object
-std::string render_stored_report(const std::string& results_json);
-
 }  // namespace flankwright::studies

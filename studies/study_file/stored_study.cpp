@@ -51,15 +51,14 @@ std::string study_text(const Json& given) {
 
 }  // namespace
 
-Study stored_study(const std::string& results, const std::string& file, StoredFlanks flanks) {
+Study stored_study(const Json& results, const std::string& file, StoredFlanks flanks) {
   std::string text, name;
   std::vector<Override> variables;
   try {
-    const Json json = Json::parse(results);
-    text = study_text(json.at("given"));
-    name = json.at("file");
-    if (flanks == StoredFlanks::Final && json.contains("optimise")) {
-      for (const auto& [key, value] : json["optimise"]["after"]["variables"].items()) variables.push_back({key, value.dump()});
+    text = study_text(results.at("given"));
+    name = results.at("file");
+    if (flanks == StoredFlanks::Final && results.contains("optimise")) {
+      for (const auto& [key, value] : results.at("optimise").at("after").at("variables").items()) variables.push_back({key, value.dump()});
     }
   } catch (const std::exception&) {
     throw InvalidInput(file, damaged_results, results_of_a_run);

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "studies/base/json_format.hpp"
 #include "studies/study/study.hpp"
 
 namespace flankwright::studies {
@@ -12,9 +13,9 @@ enum class StoredFlanks { Final, Given };
 /// Pair, flanks, material, torques and scenes of a study that has run, from `given` of its results.json; Final: with the variables
 /// that an optimisation ended at. Task, fidelity, errors of teeth and shafts are left out, so that nothing is needed but the grids.
 ///
-/// @param results  text of results.json
-/// @param file     its path, for messages
+/// @param results  whole_results()
+/// @param file     their path, for messages
 /// @throws InvalidInput where it is none of this program's, StudyErrors where a grid that the study names is no longer there
-Study stored_study(const std::string& results, const std::string& file, StoredFlanks flanks);
+Study stored_study(const Json& results, const std::string& file, StoredFlanks flanks);
 
 }  // namespace flankwright::studies

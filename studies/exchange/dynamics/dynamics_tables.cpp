@@ -219,12 +219,10 @@ std::vector<ExcitationHarmonic> excitation_harmonics(const std::vector<double>& 
   return harmonics;
 }
 
-DynamicsRun mesh_excitation(const std::string& results, const std::string& file, const ProgressReport& progress) {
-  Json json;
+DynamicsRun mesh_excitation(const Json& results, const std::string& file, const ProgressReport& progress) {
   Study study;
   try {
-    json = Json::parse(results);
-    study = study_to_analyse(json);
+    study = study_to_analyse(results);
   } catch (const Json::exception& error) {
     throw InvalidInput(file, error.what(), "results.json of a study that this version has run");
   }

@@ -34,10 +34,10 @@ struct DynamicsRun {
 /// Analyses a study that has run once more, with its final flanks, at the resolution that it ended with, and with tangent stiffness. Over one wheel
 /// revolution, at 16 positions a pitch, where teeth of a gear have errors of their own.
 ///
-/// @param results  text of results.json
-/// @param file     its path, for messages
+/// @param results  whole_results()
+/// @param file     their path, for messages
 /// @throws InvalidInput where it is none of this program's, of an older version, of a study without torque or with explicit phases
-DynamicsRun mesh_excitation(const std::string& results, const std::string& file, const ProgressReport& progress = {});
+DynamicsRun mesh_excitation(const Json& results, const std::string& file, const ProgressReport& progress = {});
 
 /// One order of the mesh frequency: amplitude * cos(2 pi order phase + angle).
 struct ExcitationHarmonic {

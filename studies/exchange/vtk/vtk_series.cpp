@@ -261,12 +261,11 @@ void add_case(const Json& json, std::size_t index, std::vector<ExportedFile>& fi
 
 }  // namespace
 
-std::vector<ExportedFile> vtk_series(const std::string& results, const std::string& file) {
+std::vector<ExportedFile> vtk_series(const Json& results, const std::string& file) {
   std::vector<ExportedFile> files;
   try {
-    const Json json = Json::parse(results);
-    if (json.at("loaded").empty()) throw InvalidInput(file, "no loaded contact", "results of a study with a torque");
-    for (std::size_t i = 0; i < json["loaded"].size(); ++i) add_case(json, i, files);
+    if (results.at("loaded").empty()) throw InvalidInput(file, "no loaded contact", "results of a study with a torque");
+    for (std::size_t i = 0; i < results.at("loaded").size(); ++i) add_case(results, i, files);
   } catch (const Json::exception&) {
     throw InvalidInput(file, damaged_results, results_of_a_run);
   }

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "studies/base/json_format.hpp"
+
 namespace flankwright::studies {
 
 /// A file of an export: path below the folder, and content.
@@ -18,9 +20,9 @@ struct ExportedFile {
 /// touch, or where a tip edge meets the mate beyond them; flanks are drawn without their deviations (micrometres would not be seen), those of
 /// teeth that touch with their tip edge only are not.
 ///
-/// @param results  text of results.json
-/// @param file     its path, for messages
+/// @param results  whole_results()
+/// @param file     their path, for messages
 /// @throws InvalidInput where it is no results.json, or one without loaded contact
-std::vector<ExportedFile> vtk_series(const std::string& results, const std::string& file);
+std::vector<ExportedFile> vtk_series(const Json& results, const std::string& file);
 
 }  // namespace flankwright::studies

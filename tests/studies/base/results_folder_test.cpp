@@ -52,6 +52,20 @@ TEST_CASE("A disk that fills up half-way leaves the old file as it was", "[studi
   CHECK(folder.names() == Names{"a.txt"});
 }
 
+TEST_CASE("results.json that is missing, damaged or of something else is refused", "[studies][results]") {
+  const ScratchFolder folder;
+  CHECK_THROWS_AS(whole_results(folder.path()), InvalidInput);
+  const std::string head = "{\"given\": [], \"used\": [], \"version\": \"1\"";
+  for (const std::string& text : {std::string(), std::string("no json"), std::string("{}"), std::string("[1, 2]"), head, head + ", \"loaded\": 3}",
+                                  head + ", \"title\": \"\xff\"}", head + ", \"x\": 1e999}"}) {
+    CAPTURE(text);
+    folder.file("results.json", text);
+    CHECK_THROWS_AS(whole_results(folder.path()), InvalidInput);
+  }
+  folder.file("results.json", head + "}");
+  CHECK(whole_results(folder.path()).at("version") == "1");
+}
+
 TEST_CASE("Folders are made with their parents, files are read as they are", "[studies][results]") {
   const ScratchFolder folder;
   make_folder(folder.path() / "a" / "b");

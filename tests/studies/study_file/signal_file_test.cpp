@@ -260,7 +260,7 @@ TEST_CASE("Results tell what of a signal loads no tooth, and a stored study coun
   CHECK(document.at("life").at("spectra").size() == 1);
   const auto& notes = results.notes;
   CHECK(std::ranges::any_of(notes, [](const std::string& note) { return note.find("loads the other flank") != std::string::npos; }));
-  const Study stored = stored_study(json_text(document), "results.json", StoredFlanks::Final);
+  const Study stored = stored_study(document, "results.json", StoredFlanks::Final);
   REQUIRE(stored.spectrum.size() == results.study.spectrum.size());
   for (std::size_t k = 0; k < stored.spectrum.size(); ++k) {
     CHECK(stored.spectrum[k].torque == results.study.spectrum[k].torque);

@@ -131,15 +131,14 @@ TEST_CASE("An analysis with the compliance of single gears stores and shows thei
   results.deflections = gear_deflections(results.pair, {}, {}, &structure, "finite elements");
   REQUIRE(results.deflections.size() == 2);
   CHECK(results.deflections[1].member == Member::Wheel);
-  const std::string text = results_json(results);
-  const json stored = json::parse(text)["deflections"];
+  const json document = results_document(results), stored = document["deflections"];
   REQUIRE(stored.size() == 2);
   CHECK(stored[0]["gear"] == "pinion");
   CHECK(stored[0]["teeth"] == 20);
   // Nine loads: three teeth by the model, one each by plate and slices.
   CHECK(stored[0]["curves"].size() == 9 * (3 + 1 + 1));
   CHECK(stored[0]["curves"][0]["model"] == "finite elements");
-  CHECK_THAT(render_stored_report(text), Contains("<section id=\"deflections\">") && !Contains("<section id=\"residuals\">"));
+  CHECK_THAT(render_report(document), Contains("<section id=\"deflections\">") && !Contains("<section id=\"residuals\">"));
 }
 
 TEST_CASE("Gears that could not be solved leave results without a fit", "[studies][fit][results]") {
