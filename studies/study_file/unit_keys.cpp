@@ -1,7 +1,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "studies/study_file/bearing_keys.hpp"
+#include "studies/study_file/shaft_part_keys.hpp"
 #include "studies/study_file/key_rows.hpp"
 
 namespace flankwright::studies {
@@ -14,37 +14,11 @@ UnitMesh& mesh(StudyBuilder& builder) { return unit(builder).meshes.back(); }
 UnitLoad& load(StudyBuilder& builder) { return unit(builder).loads.back(); }
 ShaftJoint& joint(StudyBuilder& builder) { return unit(builder).joints.back(); }
 
-constexpr Range on_shaft = from_zero(10000.0);  // mm
 constexpr Range any_force = within(1e9), any_torque = within(1e9);
 
 using enum ValueKind;
 
-/// What bearings on the housing and between shafts have in common.
-template <ShaftBearing& (*bearing)(StudyBuilder&, Member)>
-std::vector<SchemaKey> bearing_rows(const std::string& list) {
-  // clang-format off
-  std::vector<SchemaKey> rows{
-      {.path = list + ".radial_stiffness", .quantity = Quantity::Stiffness, .range = above_zero(1e9), .fallback = "(rigid)",
-       .meaning = "the same in every direction",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_stiffness = v.number; }},
-      {.path = list + ".axial_stiffness", .quantity = Quantity::Stiffness, .range = from_zero(1e9), .fallback = "(0: slides)",
-       .meaning = "along the shaft",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).axial_stiffness = v.number; }},
-      {.path = list + ".tilting_stiffness", .quantity = Quantity::Torque, .range = from_zero(1e12), .fallback = "(0: swivels)",
-       .meaning = "moment per rad",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).tilting_stiffness = v.number; }},
-      {.path = list + ".radial_clearance", .quantity = Quantity::Deviation, .range = from_zero(10000.0), .fallback = "(0)",
-       .meaning = "from one side to the other",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_clearance = v.number; }},
-      {.path = list + ".name", .kind = Text, .fallback = "(its shaft and a number)", .meaning = "for results, and for unit.housing.seats",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).name = v.text; }},
-  };
-  // clang-format on
-  const std::vector<SchemaKey> by_load = bearing_law_rows<bearing>(list);
-  rows.insert(rows.end(), by_load.begin(), by_load.end());
-  return rows;
-}
-
+ShaftData& shaft_of(StudyBuilder& builder, Member /*member*/) { return shaft(builder); }
 ShaftBearing& of_shaft(StudyBuilder& builder, Member /*member*/) { return shaft(builder).bearings.back(); }
 ShaftBearing& of_joint(StudyBuilder& builder, Member /*member*/) { return joint(builder).bearing; }
 
@@ -64,13 +38,6 @@ std::vector<SchemaKey> unit_rows() {
        .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).name = v.text; }},
       {.path = "unit.shafts[].sections", .kind = TableList, .fallback = "(required)", .meaning = "as pinion.shaft.sections",
        .store = [](StudyBuilder& d, Member, const Value&) { shaft(d).sections.emplace_back(); }},
-      {.path = "unit.shafts[].sections[].length", .quantity = Quantity::Length, .range = any_length, .fallback = "(required)", .meaning = "of constant section",
-       .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).sections.back().length = v.number; }},
-      {.path = "unit.shafts[].sections[].outer_diameter", .quantity = Quantity::Length, .range = any_length, .fallback = "(required)", .meaning = "d",
-       .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).sections.back().outer_diameter = v.number; }},
-      {.path = "unit.shafts[].sections[].inner_diameter", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(0: solid)",
-       .meaning = "of a hollow shaft; below the outer one",
-       .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).sections.back().inner_diameter = v.number; }},
       {.path = "unit.shafts[].bearings", .kind = TableList, .fallback = "(none)", .meaning = "in the housing",
        .store = [](StudyBuilder& d, Member, const Value&) { shaft(d).bearings.emplace_back(); }},
       {.path = "unit.shafts[].bearings[].position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(required)",
@@ -79,10 +46,6 @@ std::vector<SchemaKey> unit_rows() {
       {.path = "unit.shafts[].torque_position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(none: no coupling)",
        .meaning = "of the coupling, where the torque that the gears leave over enters or leaves",
        .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).torque_position = v.number; }},
-      {.path = "unit.shafts[].material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7), .fallback = "(as the pinion's)", .meaning = "E",
-       .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).material.youngs_modulus = v.number; }},
-      {.path = "unit.shafts[].material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true}, .fallback = "(as the pinion's)", .meaning = "nu",
-       .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).material.poissons_ratio = v.number; }},
       {.path = "unit.meshes", .kind = TableList, .fallback = "(none)", .meaning = "external cylindrical meshes beside the pair; they act with mean forces, at mid face without a stiffness",
        .store = [](StudyBuilder& d, Member, const Value&) { unit(d).meshes.emplace_back(); }},
       {.path = "unit.meshes[].name", .kind = Text, .fallback = "(mesh and a number)", .meaning = "for results",
@@ -169,8 +132,11 @@ std::vector<SchemaKey> unit_rows() {
        }},
   });
   const auto append = [&](const std::vector<SchemaKey>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
-  append(bearing_rows<of_shaft>("unit.shafts[].bearings[]"));
-  append(bearing_rows<of_joint>("unit.joints[]"));
+  append(shaft_section_rows<shaft_of>("unit.shafts[]"));
+  append(shaft_material_rows<shaft_of>("unit.shafts[]", "(as the pinion's)"));
+  constexpr BearingFallbacks fallbacks{.axial = "(0: slides)", .name = "(its shaft and a number)"};
+  append(bearing_rows<of_shaft>("unit.shafts[].bearings[]", fallbacks));
+  append(bearing_rows<of_joint>("unit.joints[]", fallbacks));
   return rows;
 }
 

@@ -1,5 +1,5 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
-     ${CMAKE_CURRENT_LIST_DIR}/bearing_keys_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/shaft_part_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/given_units_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grid_file_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/key_page_test.cpp

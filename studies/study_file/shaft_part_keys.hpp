@@ -8,6 +8,11 @@
 
 namespace flankwright::studies {
 
+// What the shafts of the pair and those of a unit have in common.
+
+/// Of places and bores on shafts [mm].
+inline constexpr Range on_shaft = from_zero(10000.0);
+
 /// The types of bearing that a study can name. Words and values of the key both follow from this list.
 inline constexpr std::array bearing_types{BearingType::DeepGrooveBall, BearingType::AngularContactBall, BearingType::CylindricalRoller,
                                           BearingType::TaperedRoller};
@@ -50,6 +55,66 @@ std::vector<SchemaKey> bearing_law_rows(const std::string& list) {
       {.path = list + ".contact_angle", .quantity = Quantity::Angle, .range = from_zero(60.0),
        .fallback = "(0 of deep_groove_ball and cylindrical_roller; the other types need it)", .meaning = "alpha, against the plane across the shaft",
        .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.contact_angle = v.number; }},
+  };
+  // clang-format on
+}
+
+/// What is said of keys that are not given, where it depends on whose bearing it is.
+struct BearingFallbacks {
+  const char *axial, *name;
+};
+
+/// Keys of a bearing, but for where it is. @param list  as in bearing_law_rows()
+template <ShaftBearing& (*bearing)(StudyBuilder&, Member)>
+std::vector<SchemaKey> bearing_rows(const std::string& list, const BearingFallbacks& fallbacks) {
+  // clang-format off
+  std::vector<SchemaKey> rows{
+      {.path = list + ".radial_stiffness", .quantity = Quantity::Stiffness, .range = above_zero(1e9), .fallback = "(rigid)",
+       .meaning = "the same in every direction",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_stiffness = v.number; }},
+      {.path = list + ".axial_stiffness", .quantity = Quantity::Stiffness, .range = from_zero(1e9), .fallback = fallbacks.axial,
+       .meaning = "along the shaft",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).axial_stiffness = v.number; }},
+      {.path = list + ".tilting_stiffness", .quantity = Quantity::Torque, .range = from_zero(1e12), .fallback = "(0: swivels)",
+       .meaning = "moment per rad",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).tilting_stiffness = v.number; }},
+      {.path = list + ".radial_clearance", .quantity = Quantity::Deviation, .range = from_zero(10000.0), .fallback = "(0)",
+       .meaning = "as catalogues have it: from one side to the other; the bearing is then linearised at each load case's equilibrium",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_clearance = v.number; }},
+      {.path = list + ".name", .kind = ValueKind::Text, .fallback = fallbacks.name, .meaning = "for results, and for unit.housing.seats",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).name = v.text; }},
+  };
+  // clang-format on
+  const std::vector<SchemaKey> by_load = bearing_law_rows<bearing>(list);
+  rows.insert(rows.end(), by_load.begin(), by_load.end());
+  return rows;
+}
+
+/// Keys of a shaft's lengths. @param list  "unit.shafts[]", the table of the shaft
+template <ShaftData& (*shaft)(StudyBuilder&, Member)>
+std::vector<SchemaKey> shaft_section_rows(const std::string& list) {
+  // clang-format off
+  return {
+      {.path = list + ".sections[].length", .quantity = Quantity::Length, .range = any_length, .fallback = "(required)", .meaning = "of constant section",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).sections.back().length = v.number; }},
+      {.path = list + ".sections[].outer_diameter", .quantity = Quantity::Length, .range = any_length, .fallback = "(required)", .meaning = "d",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).sections.back().outer_diameter = v.number; }},
+      {.path = list + ".sections[].inner_diameter", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(0: solid)",
+       .meaning = "of a hollow shaft; below the outer one",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).sections.back().inner_diameter = v.number; }},
+  };
+  // clang-format on
+}
+
+/// Keys of a shaft's material.
+template <ShaftData& (*shaft)(StudyBuilder&, Member)>
+std::vector<SchemaKey> shaft_material_rows(const std::string& list, const char* fallback) {
+  // clang-format off
+  return {
+      {.path = list + ".material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7), .fallback = fallback, .meaning = "E of the shaft",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).material.youngs_modulus = v.number; }},
+      {.path = list + ".material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true}, .fallback = fallback, .meaning = "nu of the shaft",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).material.poissons_ratio = v.number; }},
   };
   // clang-format on
 }

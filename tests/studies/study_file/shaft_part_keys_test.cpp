@@ -1,4 +1,4 @@
-#include "studies/study_file/bearing_keys.hpp"
+#include "studies/study_file/shaft_part_keys.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
