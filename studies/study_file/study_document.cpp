@@ -223,6 +223,9 @@ void StudyDocument::merge(const Override& override_, std::vector<StudyProblem>& 
       ++i;
       continue;
     }
+    if (next == nullptr && std::ranges::all_of(parts[i + 1], [](char c) { return c >= '0' && c <= '9'; })) {
+      return refuse("allowed is a table of the study; it has no [[" + override_.key.substr(0, override_.key.find("." + parts[i + 1])) + "]]");
+    }
     if (next == nullptr || !next->is_table()) {
       assign(*table, parts[i], toml::table{});
       next = table->get(parts[i]);

@@ -173,6 +173,13 @@ teeth = "many"
   CHECK_THROWS_WITH(parse_study(text, "small.toml"), Catch::Contains("small.toml:8:1: wheel.teeth = \"many\": allowed"));
 }
 
+TEST_CASE("A number in a key from the command line counts tables that the study has", "[studies][study-file]") {
+  const std::vector<Override> first{{"scenes.0.load.torque", "3"}}, third{{"scenes.2.load.torque", "3"}}, shaft{{"unit.shafts.0.name", "a"}};
+  CHECK_THAT(problem_of("", first).allowed, Catch::Contains("it has no [[scenes]]"));
+  CHECK_THAT(problem_of("", shaft).allowed, Catch::Contains("it has no [[unit.shafts]]"));
+  CHECK_THAT(problem_of("[[scenes]]\nname = \"a\"\n", third).allowed, Catch::Contains("counted from 0"));
+}
+
 TEST_CASE("A misspelt key names the key that was meant", "[studies][study-file]") {
   using Row = std::tuple<std::string, std::string>;
   const auto [more, meant] = GENERATE(table<std::string, std::string>({
