@@ -8,6 +8,8 @@
 #include <map>
 
 #include "core/base/stopwatch.hpp"
+#include "core/fidelity/discretisation.hpp"
+#include "core/fidelity/resolved_cycle.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
 
 namespace flankwright::studies {
@@ -59,7 +61,7 @@ void add_exact(const StudyResults& results, const LoadedResult& loaded, std::vec
   }
 }
 
-/// What is left out may change no figure by more than a budget over this: positions are those of the study, extremes lie between them.
+/// What is left out may change no figure by more than a budget over this: with and without it, figures have discretisation errors of their own.
 constexpr double safety = 1.25;
 constexpr int most_refusals = 2;
 
@@ -87,30 +89,34 @@ std::vector<EffectSize> small_sizes(const StudyResults& results, const std::vect
   return sizes;
 }
 
-/// Figures of all load cases with the effects that are on, at the study's own resolution; empty where a position failed.
+/// Figures of all load cases with these effects, at the study's own resolution, with the extremes between its positions; empty where a position failed.
 std::vector<CycleFigures> figures_with(const StudyResults& results, const std::vector<DesignScene>& scenes, const EffectDecisions& decisions) {
   const Study& study = results.study;
   const MeshEffects effects = mesh_effects(decisions);
+  const auto placement_of_scene = [&](const DesignScene& scene) {
+    return placement_of(gap_model(decisions), scene.condition, results.shafts.get(), scene.torque);
+  };
+  const auto mesh = [&](const MeshPlacement& placement, const std::vector<double>& phases) {
+    return make_mesh_model(results.pair, study.material, {study.fidelity.quadrature, phases}, effects, placement,
+                           {.structure = results.structures.pair.get(), .shafts = results.shafts.get()});
+  };
   std::map<MeshPlacement, MeshModel> models;
-  std::vector<const MeshModel*> of_scene;
   for (const DesignScene& scene : scenes) {
-    const MeshPlacement placement = placement_of(gap_model(decisions), scene.condition, results.shafts.get(), scene.torque);
-    auto known = models.find(placement);
-    if (known == models.end()) {
-      const MeshResolution resolution{study.fidelity.quadrature, results.phases};
-      known = models
-                  .emplace(placement, make_mesh_model(results.pair, study.material, resolution, effects, placement,
-                                                      {.structure = results.structures.pair.get(), .shafts = results.shafts.get()}))
-                  .first;
-    }
-    of_scene.push_back(&known->second);
+    const MeshPlacement placement = placement_of_scene(scene);
+    if (!models.contains(placement)) models.emplace(placement, mesh(placement, results.phases));
   }
   std::vector<CycleFigures> figures(scenes.size());
   std::vector<int> failures(scenes.size(), 0);
   tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
-    const SampledCycle cycle(*of_scene[i], analyse_cycle(*of_scene[i], scenes[i].condition, scenes[i].torque, {}, {}, RootStresses::Later));
-    failures[i] = cycle.failures();
-    figures[i] = cycle.figures();
+    const DesignScene& scene = scenes[i];
+    const MeshPlacement placement = placement_of_scene(scene);
+    const MeshModel& model = models.at(placement);
+    const LoadedCycle cycle = analyse_cycle(model, scene.condition, scene.torque, {}, {}, RootStresses::Later);
+    failures[i] = cycle.failures;
+    if (!cycle.usable()) return;
+    const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh(placement, phases); };
+    const CycleResolving resolving{.seek_extremes = seeks_extremes(study)};
+    figures[i] = figures_of(model, cycle, resolve_cycle(model, cycle, at, scene.condition, scene.torque, resolving).summary);
   });
   if (std::ranges::any_of(failures, [](int failed) { return failed > 0; })) return {};
   return figures;
