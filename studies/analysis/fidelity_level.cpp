@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "core/base/thread_stopwatch.hpp"
+#include "core/fidelity/discretisation.hpp"
+#include "core/fidelity/resolved_cycle.hpp"
 #include "core/rating/contact_peaks.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/compliance/study_compliance.hpp"
@@ -90,11 +92,15 @@ std::vector<CycleFigures> LevelRunner::figures(const FidelityLevel& level) {
     if (known == models.end()) {
       known = models.emplace(placement, mesh_for({level.quadrature, equally_spaced_phases(level.positions)})).first;
     }
-    const SampledCycle cycle(known->second, analyse_cycle(known->second, scene.condition, scene.torque));
-    if (cycle.failures() > 0) return {};
-    CycleFigures figures = cycle.figures();
+    const MeshModel& model = known->second;
+    const LoadedCycle cycle = analyse_cycle(model, scene.condition, scene.torque);
+    if (!cycle.usable()) return {};
+    CycleFigures figures = SampledCycle(model, cycle).figures();
     if (level.located_peaks) {
       const auto mesh_at = [&](const std::vector<double>& phases) { return mesh_for({level.quadrature, phases}); };
+      const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
+      const CycleResolving resolving{.seek_extremes = level.quadrature.rule == QuadratureRule::Graded};
+      figures = figures_of(model, cycle, resolve_cycle(model, cycle, at, scene.condition, scene.torque, resolving).summary);
       const ContactPeaks peaks = locate_peaks(mesh_at, scene.condition, scene.torque, {.everywhere = true});
       if (peaks.failures > 0) return {};
       figures[Figure::LoadFactor] *= peaks.everywhere.line_load.value / figures[Figure::PeakLineLoad];

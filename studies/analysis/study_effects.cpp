@@ -10,9 +10,19 @@ FlankCondition condition_of(const Study& study, const Scene& scene) {
   return condition;
 }
 
+Scene under_load(Scene scene, const SpectrumBin& load) {
+  scene.misalignment.mesh_misalignment += load.mesh_misalignment;
+  return scene;
+}
+
 std::vector<FlankCondition> conditions_of(const Study& study) {
   std::vector<FlankCondition> conditions;
-  for (const Scene& scene : study.scenes) conditions.push_back(condition_of(study, scene));
+  for (const Scene& scene : study.scenes) {
+    conditions.push_back(condition_of(study, scene));
+    for (const SpectrumBin& load : study.spectrum) {
+      if (load.mesh_misalignment != 0.0) conditions.push_back(condition_of(study, under_load(scene, load)));
+    }
+  }
   return conditions;
 }
 

@@ -8,7 +8,10 @@ namespace flankwright::studies {
 /// The flanks of a scene as the study has them, whatever effects are on.
 FlankCondition condition_of(const Study& study, const Scene& scene);
 
-/// The flanks of all the study's scenes.
+/// A scene under a load of the spectrum, whose own misalignment comes on top.
+Scene under_load(Scene scene, const SpectrumBin& load);
+
+/// The flanks of all the study's scenes, and under each load of the spectrum that misaligns them further.
 std::vector<FlankCondition> conditions_of(const Study& study);
 
 /// The modifications of a study with their processes as they are analysed: without one where the effect of it is off.

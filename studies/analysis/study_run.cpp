@@ -112,9 +112,7 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
       loaded.spectrum = static_cast<int>(number);
       loaded.bin = static_cast<int>(k);
       if (bin.mesh_misalignment == 0.0) continue;
-      Scene moved = scene;
-      moved.misalignment.mesh_misalignment += bin.mesh_misalignment;
-      loaded.condition = apply_effects(results_.effects, condition_of(results_.study, moved));
+      loaded.condition = apply_effects(results_.effects, condition_of(results_.study, under_load(scene, bin)));
     }
   }
   return scenes;

@@ -47,9 +47,9 @@ class Rows {
 
 /// Names whose numbers are no results: places that jump between equal peaks, estimates of errors, numerical diagnostics, times.
 bool is_left_out(const std::string& name) {
-  static constexpr std::array words{"phase",           "tooth",          "z_mm",       "along_fillet",    "worst_kkt_residual",
-                                    "worst_condition", "te_convergence", "spike_rule", "phase_tolerance", "positions",
-                                    "profile",         "seconds",        "y_alpha_um"};
+  static constexpr std::array words{
+      "phase",           "tooth",     "z_mm",    "along_fillet", "worst_kkt_residual", "worst_condition", "te_convergence",           "spike_rule",
+      "phase_tolerance", "positions", "profile", "seconds",      "y_alpha_um",         "hottest_z_mm",    "hottest_pinion_radius_mm", "bin"};
   return name.ends_with("_error") || name.ends_with("_at") || std::ranges::find(words, name) != words.end();
 }
 
@@ -135,8 +135,9 @@ void add_worst(const std::vector<const Json*>& cases, std::size_t run, Rows& row
   }
 }
 
+constexpr std::ptrdiff_t most_headline_cases = 4;  ///< of more the worst stands for all
+
 void add_loaded(const Json& results, std::size_t run, Rows& rows) {
-  constexpr std::size_t most_headline_cases = 4;  // of more the worst stands for all
   std::vector<const Json*> final_cases;
   for (const Json& loaded : member(results, "loaded")) {
     if (member(loaded, "design") != "before") final_cases.push_back(&loaded);
@@ -144,7 +145,7 @@ void add_loaded(const Json& results, std::size_t run, Rows& rows) {
   add_worst(final_cases, run, rows);
   for (const Json& loaded : member(results, "loaded")) {
     const std::string section = load_case_name(loaded);
-    const bool in_short = member(loaded, "design") != "before" && final_cases.size() <= most_headline_cases;
+    const bool in_short = member(loaded, "design") != "before" && std::ssize(final_cases) <= most_headline_cases;
     visit(member(loaded, "summary"), "", [&](const std::string& name, double value) {
       ComparedValue& row = rows.row(section, name);
       row.values[run] = value;
@@ -172,6 +173,34 @@ void add_unloaded(const Json& results, std::size_t run, Rows& rows) {
   for (std::size_t i = 0; i < several.size(); ++i) {
     const Json& scene = member(several[i], "scene");
     add(several[i], "unloaded contact, " + (scene.is_string() ? scene.get<std::string>() : std::to_string(i)));
+  }
+}
+
+void add_life(const Json& results, std::size_t run, Rows& rows) {
+  static constexpr std::array shown{
+      "S_H", "S_F", "contact_safety", "root_safety", "loss_power_W", "specific_film_thickness", "contact_temperature_degC"};
+  const Json& life = member(results, "life");
+  const auto is_final = [](const Json& of) { return member(of, "design") != "before"; };
+  const Json& cases = member(life, "cases");
+  const bool few = std::ranges::count_if(cases, is_final) <= most_headline_cases;
+  for (const Json& of : cases) {
+    visit(of, "", [&](const std::string& name, double value) {
+      ComparedValue& row = rows.row("life, " + load_case_name(of), name);
+      row.values[run] = value;
+      row.headline = few && is_final(of) && std::ranges::find(shown, name.substr(name.rfind('.') + 1)) != shown.end();
+    });
+  }
+  for (const Json& of : member(life, "spectra")) {
+    const std::string section = "life, spectrum of " + load_case_name(of);
+    for (const char* gear : {"pinion", "wheel"}) {
+      for (const char* what : {"contact", "root"}) {
+        const Json& damage = member(member(member(of, gear), what), "damage");
+        if (!damage.is_number()) continue;
+        ComparedValue& row = rows.row(section, std::string(gear) + "." + what + "_damage");
+        row.values[run] = damage;
+        row.headline = is_final(of);
+      }
+    }
   }
 }
 
@@ -250,6 +279,7 @@ std::string load_case_name(const Json& loaded) {
   const Json &scene = member(loaded, "scene"), &torque = member(loaded, "torque_Nm"), &design = member(loaded, "design");
   std::string name = scene.is_string() ? scene.get<std::string>() : std::string("nominal");
   if (torque.is_number()) name += fmt::format(", {:.6g} N·m", torque.get<double>());
+  if (const Json& bin = member(loaded, "bin"); bin.is_number_integer()) name += fmt::format(", load {}", bin.get<int>() + 1);
   return design == "before" ? name + ", before" : name;
 }
 
@@ -258,7 +288,7 @@ ComparedRuns compare_runs(const std::vector<ComparedRun>& runs) {
   Rows rows(runs.size());
   for (std::size_t run = 0; run < runs.size(); ++run) {
     if (!runs[run].results.is_object()) throw InvalidInput(runs[run].name, runs[run].results.type_name(), results_of_a_run);
-    for (const auto& add : {add_geometry, add_design, add_loaded, add_unloaded, add_sweep}) add(runs[run].results, run, rows);
+    for (const auto& add : {add_geometry, add_design, add_loaded, add_life, add_unloaded, add_sweep}) add(runs[run].results, run, rows);
   }
   ComparedRuns compared{differing_keys(runs), rows.take()};
   set_scales(compared.values);

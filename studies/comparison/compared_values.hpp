@@ -52,7 +52,7 @@ struct ComparedRuns {
 /// @throws InvalidInput where there are fewer, or results that are no object
 ComparedRuns compare_runs(const std::vector<ComparedRun>& runs);
 
-/// The final load cases of results, in their order: "scene, torque" or, of several scenes at one torque or none, the part that tells them apart.
+/// A load case by its scene, its torque, the number of the load in a spectrum, from 1, and whether it is of the design before an optimisation.
 std::string load_case_name(const Json& loaded);
 
 }  // namespace flankwright::studies

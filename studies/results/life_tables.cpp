@@ -1,3 +1,4 @@
+#include "studies/results/load_case_fields.hpp"
 #include "studies/results/life_tables.hpp"
 
 #include <fmt/format.h>
@@ -126,15 +127,15 @@ std::string life_table(const StudyResults& results, std::size_t width) {
 
 std::string life_csv(const StudyResults& results) {
   std::string csv =
-      "scene,torque_Nm,design,bin,cycles,gear,contact_damage,root_damage,contact_safety,root_safety,sigma_H_MPa,sigma_F_MPa,S_H,S_F,"
+      std::string(load_case_columns) +
+      ",cycles,gear,contact_damage,root_damage,contact_safety,root_safety,sigma_H_MPa,sigma_F_MPa,S_H,S_F,"
       "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety,flash_temperature_K,contact_temperature_degC,scuffing_safety,"
       "loss_factor_error,loss_power_W_error,specific_film_thickness_error,micropitting_safety_error,flash_temperature_K_error,contact_temperature_degC_error,"
       "scuffing_safety_error,K_A,K_v\n";
   for (const CaseLife& of : results.life->cases) {
     const LoadedResult& loaded = results.loaded[of.loaded];
     for (const Member m : each_gear) {
-      csv += fmt::format("{},{},{},{},{},{}", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
-                         loaded.bin < 0 ? std::string() : std::to_string(loaded.bin), csv_field(loaded.operation.revolutions), name_of(m));
+      csv += fmt::format("{},{},{}", load_case_fields(loaded), csv_field(loaded.operation.revolutions), name_of(m));
       for (const double value : {of.contact_damage[m],
                                  of.root_damage[m],
                                  of.contact_safety[m],

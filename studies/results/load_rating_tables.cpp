@@ -1,5 +1,6 @@
 #include "studies/base/json_format.hpp"
 #include "studies/base/csv.hpp"
+#include "studies/results/load_case_fields.hpp"
 #include "studies/results/load_rating_tables.hpp"
 #include "studies/base/json_format.hpp"
 
@@ -40,26 +41,26 @@ constexpr std::array<Definition, 4> definitions{{
 }  // namespace
 
 std::string load_factors_csv(const StudyResults& results) {
-  std::string csv = "scene,torque_Nm,design,definition,K_Hbeta,K_Halpha,K_H,K_Hbeta_times_K_Halpha\n";
+  std::string csv = std::string(load_case_columns) + ",definition,K_Hbeta,K_Halpha,K_H,K_Hbeta_times_K_Halpha\n";
   for (const LoadedResult& loaded : results.loaded) {
     for (const Definition& definition : definitions) {
       const auto k = definition.values(loaded);
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, definition.name, csv_field(k[0]),
-                         csv_field(k[1]), csv_field(k[2]), csv_field(k[3]));
+      csv += fmt::format("{},{},{},{},{},{}\n", load_case_fields(loaded), definition.name, csv_field(k[0]), csv_field(k[1]), csv_field(k[2]),
+                         csv_field(k[3]));
     }
   }
   return csv;
 }
 
 std::string load_sharing_csv(const StudyResults& results) {
-  std::string csv = "scene,torque_Nm,design,phase,tooth,line_phase,share\n";
+  std::string csv = std::string(load_case_columns) + ",phase,tooth,line_phase,share\n";
   for (const LoadedResult& loaded : results.loaded) {
     const MeshModel& model = results.models[loaded.model];
+    const std::string load_case = load_case_fields(loaded);
     for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
       const double phase = loaded.cycle.positions[k].phase;
       for (const ToothShare& tooth : load_sharing(model.positions[k], loaded.cycle.positions[k])) {
-        csv += fmt::format("{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, phase, tooth.tooth,
-                           phase + tooth.tooth, tooth.share);
+        csv += fmt::format("{},{},{},{},{}\n", load_case, phase, tooth.tooth, phase + tooth.tooth, tooth.share);
       }
     }
   }

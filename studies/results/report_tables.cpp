@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "studies/base/json_format.hpp"
+#include "studies/results/load_case_fields.hpp"
 
 namespace flankwright::studies {
 
@@ -41,13 +42,15 @@ std::string gears_csv(const Json& geometry) {
   return csv;
 }
 
+/// The fields of load_case_columns.
 std::string case_fields(const Json& loaded) {
-  return field(loaded.at("scene")) + "," + field(loaded.at("torque_Nm")) + "," + field(loaded.at("design"));
+  return field(loaded.at("scene")) + "," + field(loaded.at("torque_Nm")) + "," + field(loaded.at("design")) + "," +
+         field(loaded.value("bin", Json()));
 }
 
 /// Every number of every summary: a line each, since what is rated differs from case to case.
 std::string summary_csv(const Json& cases) {
-  std::string csv = "scene,torque_Nm,design,quantity,value\n";
+  std::string csv = std::string(load_case_columns) + ",quantity,value\n";
   for (const Json& loaded : cases) {
     visit(loaded.at("summary"), "", [&](const std::string& path, const Json& value) {
       if (!value.is_structured() && !value.is_null()) csv += case_fields(loaded) + "," + csv_field(path) + "," + field(value) + "\n";
@@ -57,7 +60,7 @@ std::string summary_csv(const Json& cases) {
 }
 
 std::string harmonics_csv(const Json& cases) {
-  std::string csv = "scene,torque_Nm,design,order,te_um\n";
+  std::string csv = std::string(load_case_columns) + ",order,te_um\n";
   for (const Json& loaded : cases) {
     int order = 0;
     for (const Json& harmonic : loaded.at("summary").at("te_harmonics_um")) {

@@ -250,6 +250,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results, bool w
             {"cycle", nullptr},
             {"extremes", extremes_json(loaded)}};
   if (loaded.condition.other_flanks) json["working_flank"] = name_of(model.pair.data.working_flank);
+  if (const double offset = loaded.condition.misalignment.axial_offset; offset != 0.0) json["axial_offset_mm"] = offset;
   if (loaded.bin >= 0) json["bin"] = loaded.bin;
   if (results.shafts) add_shaft_motion(loaded, results, json);
   if (results.structures.rim_motion) add_rim_motion(loaded, results, json);

@@ -14,6 +14,7 @@
 #include "studies/results/bodies_json.hpp"
 #include "studies/analysis/governing_cases.hpp"
 #include "studies/results/life_tables.hpp"
+#include "studies/results/load_case_fields.hpp"
 #include "studies/results/load_rating_tables.hpp"
 #include "studies/results/shafts_json.hpp"
 #include "studies/results/unloaded_tables.hpp"
@@ -23,17 +24,16 @@ namespace flankwright::studies {
 namespace {
 
 std::string cycle_csv(const StudyResults& results) {
-  std::string csv =
-      "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual,"
-      "pinion_root_stress_MPa,wheel_root_stress_MPa\n";
+  std::string csv = std::string(load_case_columns) +
+                    ",phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual,pinion_root_stress_MPa,wheel_root_stress_MPa\n";
   const double cos_base_helix = std::cos(results.pair.base_helix_angle);
   for (const LoadedResult& loaded : results.loaded) {
     const MeshModel& model = results.models[loaded.model];
+    const std::string load_case = load_case_fields(loaded);
     for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
       const LoadedPosition& p = loaded.cycle.positions[k];
       const double te = in_um(p.load.transmission_error);
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
-                         te / cos_base_helix, p.stiffness, p.load.kkt_residual,
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", load_case, p.phase, te, te / cos_base_helix, p.stiffness, p.load.kkt_residual,
                          csv_field(root_stress_peak(model.positions[k], p, Member::Pinion).stress),
                          csv_field(root_stress_peak(model.positions[k], p, Member::Wheel).stress));
     }
@@ -42,22 +42,23 @@ std::string cycle_csv(const StudyResults& results) {
 }
 
 std::string points_csv(const StudyResults& results) {
-  std::string csv =
-      "scene,torque_Nm,design,phase,tooth,z_mm,pinion_radius_mm,wheel_radius_mm,load_N_per_mm,contact_stress_MPa,"
-      "contact_deflection_um,structural_deflection_um,gap_um,error_um\n";
+  std::string csv = std::string(load_case_columns) +
+                    ",phase,tooth,z_mm,pinion_radius_mm,wheel_radius_mm,load_N_per_mm,contact_stress_MPa,"
+                    "contact_deflection_um,structural_deflection_um,gap_um,error_um\n";
   const std::vector<bool> with_points = cases_with_points(results);
   for (std::size_t l = 0; l < results.loaded.size(); ++l) {
     const LoadedResult& loaded = results.loaded[l];
     const MeshModel& model = results.models[loaded.model];
+    const std::string load_case = load_case_fields(loaded);
     for (std::size_t k = 0; k < loaded.cycle.positions.size() && with_points[l]; ++k) {
       const LoadedPosition& p = loaded.cycle.positions[k];
       if (!p.load.usable()) continue;
       for (std::size_t j = 0; j < model.positions[k].points.size(); ++j) {
         const ContactPoint& c = model.positions[k].points[j];
         const auto i = static_cast<Eigen::Index>(j);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase,
-                           c.tooth, c.z, c.pinion_radius, c.wheel_radius, p.load.line_load[i], p.contact_stress[i],
-                           in_um(p.load.contact_deflection[i]), in_um(p.load.structural_deflection[i]), in_um(p.gap.total[i]), in_um(p.gap.error[i]));
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", load_case, p.phase, c.tooth, c.z, c.pinion_radius, c.wheel_radius,
+                           p.load.line_load[i], p.contact_stress[i], in_um(p.load.contact_deflection[i]), in_um(p.load.structural_deflection[i]),
+                           in_um(p.gap.total[i]), in_um(p.gap.error[i]));
       }
     }
   }

@@ -118,6 +118,7 @@ struct MeshFrame {
   double centre_distance;                 ///< [mm]
   std::array<double, 2> base, root, tip;  ///< radii of pinion and wheel [mm]
   std::array<double, 2> half_face;        ///< [mm]
+  std::array<double, 2> mid_face;         ///< z of it [mm]
   double mirror;                          ///< -1: the left flank of the pinion works
   bool turned;                            ///< it is not the pair's own: what is removed from that at z is removed at -z
 
@@ -142,6 +143,7 @@ struct MeshFrame {
       root[g] = 0.5 * gear.at("active_root_diameter_mm").get<double>();
       tip[g] = 0.5 * gear.at("tip_diameter_mm").get<double>();
       half_face[g] = 0.5 * used.at(g == 0U ? "pinion" : "wheel").at("face_width_mm").get<double>();
+      mid_face[g] = g == 0U ? 0.0 : loaded.value("axial_offset_mm", 0.0);
     }
   }
 
@@ -222,7 +224,8 @@ PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, 
       std::vector<int> row;
       const double radius = std::lerp(frame.root[gear], frame.tip[gear], static_cast<double>(i) / (surface_points - 1));
       for (int j = 0; j < surface_points; ++j) {
-        const double z = std::lerp(-frame.half_face[gear], frame.half_face[gear], static_cast<double>(j) / (surface_points - 1));
+        const double z =
+            frame.mid_face[gear] + std::lerp(-frame.half_face[gear], frame.half_face[gear], static_cast<double>(j) / (surface_points - 1));
         const double of_pinion = at_mid + tooth.at("tooth").get<int>() * frame.base_pitch + frame.lead * z;
         const auto [x, y] = frame.place(gear, frame.roll(gear, radius), gear == 0U ? of_pinion : frame.path - of_pinion);
         const auto along = static_cast<std::size_t>((frame.turned ? surface_points - 1 - j : j) * surface_step);

@@ -8,6 +8,7 @@
 #include "core/contact/unloaded/transmission_error.hpp"
 #include "core/rating/shaft_misalignment.hpp"
 #include "studies/analysis/case_life.hpp"
+#include "studies/analysis/study_effects.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/study_file/scene_placement.hpp"
 #include "studies/study_file/study_life.hpp"
@@ -159,12 +160,12 @@ std::vector<double> SampleAnalysis::loaded_outputs(const SweptCondition& swept) 
   } else {
     for (const LoadedResult& nominal : nominal_.loaded) {
       const SpectrumBin& bin = nominal_.study.spectrum[static_cast<std::size_t>(nominal.bin)];
-      SweptCondition under_load = swept;
-      under_load.scene.misalignment.mesh_misalignment += bin.mesh_misalignment;
+      SweptCondition there = swept;
+      there.scene = under_load(swept.scene, bin);
       SampleCase& load_case = cases.emplace_back();
       load_case.loaded.torque = nominal.torque;
       load_case.loaded.operation = nominal.operation;
-      of_cases.push_back(case_outputs(load_case, under_load, meshes));
+      of_cases.push_back(case_outputs(load_case, there, meshes));
     }
   }
   std::vector<double> values = of_cases.front();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <vector>
 
 #include "core/base/error.hpp"
 #include "studies/comparison/comparison_page.hpp"
@@ -90,6 +91,32 @@ TEST_CASE("Of several load cases the worst stands in the short table; of many it
     CHECK(of_one->headline == (cases == 2));
   }
   CHECK(find(compare_runs({{"a", several(1, 1.0)}, {"b", several(1, 3.0)}}), "worst of the load cases", "te_harmonics_um.0") == nullptr);
+}
+
+TEST_CASE("Life is compared for each load of a spectrum, of which two may have one torque, and for their sum", "[studies][compare]") {
+  const auto rated = [](double safety, double damage) {
+    Json results{{"loaded", Json::array()}, {"life", {{"cases", Json::array()}, {"spectra", Json::array()}}}};
+    for (int bin = 0; bin < 2; ++bin) {
+      const Json load_case{{"scene", "hot"}, {"torque_Nm", 250.0}, {"design", "given"}, {"bin", bin}};
+      results["loaded"].push_back(load_case);
+      results["loaded"].back()["summary"] = {{"te_mean_um", 10.0 + bin}};
+      results["life"]["cases"].push_back(load_case);
+      results["life"]["cases"].back()["wheel"] = {{"S_F", safety - 0.1 * bin}};
+    }
+    results["life"]["spectra"].push_back({{"scene", "hot"}, {"design", "given"}, {"wheel", {{"root", {{"damage", damage}, {"z_mm", damage}}}}}});
+    return results;
+  };
+  const ComparedRuns runs = compare_runs({{"a", rated(2.0, 0.5)}, {"b", rated(1.0, 0.75)}});
+  CHECK(find(runs, "hot, 250 N·m, load 1", "te_mean_um")->values == std::vector{10.0, 10.0});
+  CHECK(find(runs, "hot, 250 N·m, load 2", "te_mean_um")->values == std::vector{11.0, 11.0});
+  const ComparedValue* safety = find(runs, "life, hot, 250 N·m, load 2", "wheel.S_F");
+  REQUIRE(safety != nullptr);
+  CHECK(safety->values == std::vector{2.0 - 0.1, 1.0 - 0.1});
+  CHECK(safety->headline);
+  const ComparedValue* damage = find(runs, "life, spectrum of hot", "wheel.root_damage");
+  REQUIRE(damage != nullptr);
+  CHECK(damage->difference(1) == 0.5);
+  CHECK(damage->differs(1, 0.4));
 }
 
 TEST_CASE("Round-off is no difference, the next digit is one", "[studies][compare]") {

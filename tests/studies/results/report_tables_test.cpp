@@ -49,7 +49,7 @@ TEST_CASE("Every table of the report is a CSV file with as many cells in every l
   CHECK_THAT(tables.at("gears.csv"), Catch::Contains("\nteeth,,18,54\n") && Catch::Contains("path_of_contact_mm.T1_A,"));
   CHECK_THAT(tables.at("given.csv"), Catch::Contains("\npinion.modification.tip_relief.height,3,mm\n"));
   CHECK_THAT(tables.at("used.csv"), Catch::Contains("\nfidelity.compliance,thin_slice\n"));
-  CHECK_THAT(tables.at("summary.csv"), Catch::Contains("\"a, \"\"b\"\"\",1014.868,given,te_peak_to_peak_um,"));
+  CHECK_THAT(tables.at("summary.csv"), Catch::Contains("\"a, \"\"b\"\"\",1014.868,given,,te_peak_to_peak_um,"));
   CHECK_THAT(tables.at("effects.csv"), Catch::Contains("\nbending,true,"));
   CHECK_THAT(tables.at("steps.csv"), Catch::Contains("\nload_distribution,"));
 }

@@ -373,6 +373,16 @@ TEST_CASE("K_A and K_v of the load, or K_v of one load of a spectrum, count in t
   CHECK(results_document(alone).at("life").at("cases")[0].at("iso6336").at("K_A") == 1.25);
 }
 
+TEST_CASE("A load of the spectrum that misaligns an aligned scene acts as a scene with that misalignment", "[studies][life]") {
+  const std::string of_load = "[load]\nspectrum = [{ torque = 300, cycles = 1e7, mesh_misalignment = 25 }]\n";
+  const std::string of_scene = "[load]\nspectrum = [{ torque = 300, cycles = 1e7 }]\n[misalignment]\nmesh_misalignment = 25\n";
+  const auto summary_of = [](const std::string& text) { return run_study(life_study(life_pair + text)).loaded.front().summary; };
+  const CycleSummary one = summary_of(of_load), other = summary_of(of_scene);
+  CHECK(one.peak_contact_stress == other.peak_contact_stress);
+  CHECK(one.te_peak_to_peak == other.te_peak_to_peak);
+  CHECK(one.peak_contact_stress > 1.1 * summary_of("[load]\nspectrum = [{ torque = 300, cycles = 1e7 }]\n").peak_contact_stress);
+}
+
 TEST_CASE("Loss, film and temperatures carry errors that hold beside a cycle four times finer both ways", "[studies][life][cycle-error]") {
   const std::string oil =
       "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\nscuffing_temperature = 250\npermissible_film = 0.2\n";

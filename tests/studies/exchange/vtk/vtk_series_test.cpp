@@ -154,9 +154,10 @@ TEST_CASE("A scene on the other flank is drawn on that flank, with what the tool
 }
 
 TEST_CASE("The drawn flanks are the involutes through their contact lines", "[studies][vtk]") {
-  const std::string flank = GENERATE("right", "left");
-  const StudyResults results =
-      run_study(parse_study(small::analysis(), "a", {{"pair.working_flank", flank}, {"cycle.positions", "2"}, {"cycle.peaks", "sampled"}}));
+  const std::string flank = GENERATE("right", "left"), offset = GENERATE("0", "5");
+  const StudyResults results = run_study(parse_study(
+      small::analysis(), "a",
+      {{"pair.working_flank", flank}, {"scenes.0.misalignment.axial_offset", offset}, {"cycle.positions", "2"}, {"cycle.peaks", "sampled"}}));
   const GearPair& pair = results.pair;
   std::map<std::string, std::string> files;
   for (const ExportedFile& file : vtk_series(results_document(results), "a")) files[file.name] = file.text;
@@ -171,6 +172,8 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
       return std::atan2(y, x) + std::tan(alpha) - alpha - sense * pair.contact_line_sense() * gear.helix_rate * points[3 * i + 2];
     };
     const Piece surface = read_piece(files.at(std::string("contact-1/") + name_of(m) + "-0000.vtp"), "Polys");
+    const double mid = m == Member::Wheel ? std::stod(offset) : 0.0;
+    for (std::size_t i = 2; i < surface.points.size(); i += 3) CHECK(std::abs(surface.points[i] - mid) <= 60.0 + 1e-9);  // round-off
     // Points on the line of action lie on the flank of their tooth; those of tip edges lie elsewhere.
     std::size_t line = 0, compared = 0;
     for (std::size_t cell = 0; cell < lines.offsets.size(); ++cell) {
