@@ -1,6 +1,7 @@
 #include "core/compliance/model/compliance_task.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/compliance/fitted/correction_fit.hpp"
 #include "core/compliance/fitted/correction_library.hpp"
@@ -73,6 +74,25 @@ std::vector<std::string> library_notes(const ComplianceTask& task) {
     const bool own_run = !alike_but_for_size(task_of_fit(gear), gear);
     notes.push_back(std::string("the ") + name_of(member) + " is outside the library of fits (" + unknown + "): its first run takes " +
                     (own_run ? "three" : "two") + " finite-element models instead of one, and a fit of its own");
+  }
+  return notes;
+}
+
+std::vector<std::string> thin_shaft_notes(const ComplianceTask& task) {
+  constexpr double thin = 0.25;  // shaft_diameter < thin * d
+  std::vector<std::string> notes;
+  if (!couples_teeth(task.model)) return notes;
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    const GearBody& given = task.body[member];
+    if (given.hold != BodyHold::Shaft || !std::isnan(given.shaft_diameter)) continue;
+    const GearToMesh gear = influence_table_task(task, member).gear;
+    const double reference = 2.0 * ToothForm(gear.gear, gear.normal_module, gear.pressure_angle, gear.helix_angle).reference_radius();
+    if (gear.body.shaft_diameter >= thin * reference) continue;
+    const std::string name = name_of(member);
+    const auto whole = [](double length) { return std::to_string(std::lround(length)) + " mm"; };
+    notes.push_back("the " + name + " of " + whole(reference) + " is taken as one with a shaft of " + whole(gear.body.shaft_diameter) +
+                    ", the default of 25 modules: mean transmission error and mesh stiffness have the yield of this body in them; " + name +
+                    ".body.shaft_diameter sets another");
   }
   return notes;
 }

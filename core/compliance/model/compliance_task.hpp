@@ -42,6 +42,11 @@ std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableT
 /// @throws InvalidInput  as influence_table_task()
 std::vector<std::string> library_notes(const ComplianceTask& task);
 
+/// A line for each gear that is taken as one with a shaft of less than a quarter of its reference diameter because no diameter was given: the default is at most
+/// 25 modules, and the disc around a thin shaft then yields more than the teeth.
+/// @throws InvalidInput  as influence_table_task()
+std::vector<std::string> thin_shaft_notes(const ComplianceTask& task);
+
 /// The task of a gear's own fit: the coarse task, with a face of at most widest_own_fit and, of a gear on a web or with a bore that is held, a
 /// solid body on its shaft.
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse);

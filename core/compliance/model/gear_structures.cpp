@@ -44,6 +44,8 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
   if (!is_structural && !task.root_stress) return structures;
   structures.finite_elements = solve_finite_elements(task, build);
   structures.notes = library_notes(task);
+  const std::vector<std::string> of_bodies = thin_shaft_notes(task);
+  structures.notes.insert(structures.notes.end(), of_bodies.begin(), of_bodies.end());
   if (const std::optional<ComplianceTask> there = task_of_other_flanks(task)) {
     structures.other_flanks = std::make_shared<const GearStructures>(build_compliance(*there, build));
   }

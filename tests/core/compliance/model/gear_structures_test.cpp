@@ -44,6 +44,18 @@ double deflection(const GearStructures& built, Member member) {
 
 }  // namespace
 
+TEST_CASE("A wheel on a shaft that is thin by default is named, one whose shaft is given is not", "[compliance]") {
+  ComplianceTask task{.pair = make_gear_pair(pair_cases::pair_data(20, 120, 0, 20, 20)), .model = ComplianceModel::Fitted};
+  const std::vector<std::string> notes = thin_shaft_notes(task);
+  REQUIRE(notes.size() == 1);
+  CHECK_THAT(notes.front(), Catch::StartsWith("the wheel ") && Catch::Contains("wheel.body.shaft_diameter"));
+  task.body.wheel.shaft_diameter = 0.2 * task.pair.wheel.tip_radius;
+  CHECK(thin_shaft_notes(task).empty());
+  task.body.wheel.shaft_diameter = GearBody{}.shaft_diameter;
+  task.model = ComplianceModel::ThinSlice;
+  CHECK(thin_shaft_notes(task).empty());
+}
+
 TEST_CASE("A pair's compliance is built without a store, and the same with one", "[compliance][fe]") {
   const ComplianceTask task = twins(ComplianceModel::Fe);
   const GearStructures alone = build_compliance(task);
