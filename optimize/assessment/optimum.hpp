@@ -58,6 +58,7 @@ struct Optimum {
   /// Accuracy of the optimum's objective [outside units]: a smaller gain is treated as zero. The residual, or `asked` where
   /// it is smaller, of the start's objective.
   double resolution{not_given};
+  double value{not_given};                 ///< objective of the design [outside units]
   std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters
 
   static constexpr double asked = 1e-6;     ///< first-order residual that is as good as none

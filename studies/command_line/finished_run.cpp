@@ -21,6 +21,7 @@ FinishedRun finished(StudyResults results) {
   FinishedRun run{std::move(results), {}, {}};
   run.document = results_document(run.results);
   run.different = differences(compare(run.results.study.expect, run.document));
+  if (!run.different.empty()) run.document["not_as_expected"] = run.different;
   return run;
 }
 

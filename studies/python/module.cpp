@@ -108,7 +108,8 @@ Results stored_results(const std::filesystem::path& folder) {
   Json document = whole_results(folder);
   try {
     std::vector<std::string> notes = document.at("notes"), requirements = document.at("requirements_not_met");
-    return {folder.string(), std::move(document), "", "", std::move(notes), std::move(requirements)};
+    std::string different = document.value("not_as_expected", "");
+    return {folder.string(), std::move(document), "", std::move(different), std::move(notes), std::move(requirements)};
   } catch (const Json::exception&) {
     throw InvalidInput((folder / "results.json").string(), damaged_results, results_of_a_run);
   }

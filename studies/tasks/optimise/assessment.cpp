@@ -37,9 +37,13 @@ std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, 
   return fmt::format("The scene \"{}\"{} governs{} with weight {:.2f}.", of_task.name, torque, of_list, scene.weight);
 }
 
-/// By how much moving a limit would reduce the objective, where that is more than the optimum is known to.
+/// By how much moving a limit would reduce the objective, where that is more than the optimum is known to. It is counted by the slope, which says nothing of a
+/// step by which the objective would fall by a third and more: damages grow with high powers of the loads.
 std::string gain_in_words(double gain, const std::string& move, const Optimum& optimum, const DesignTask& task) {
   if (!(std::abs(gain) > optimum.resolution)) return fmt::format("{} would not reduce the {}.", move, objective_of(task));
+  constexpr double far = 1.0 / 3.0;
+  if (std::abs(gain) > far * std::abs(optimum.value))
+    return fmt::format("{} would reduce the {} by much, more than its slope can tell.", move, objective_of(task));
   return fmt::format("{} would reduce the {} by {:.2g}{}.", move, objective_of(task), -gain, behind_number(task.objective_unit()));
 }
 
@@ -143,6 +147,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
     const std::vector<AssessedParameter> parameters = assessed_parameters(last.task());
     const LocalModel model(last, best.analysis.modification, parameters, design.optimality.active);
     assessment.optimum = find_optimum(last, design.optimality, model, parameters, best.variables);
+    assessment.optimum->value = best.later_objectives.empty() ? best.objective : best.later_objectives.back();
     assessment.judged = last.task();
     assessment.judged->constraints = asked.constraints;
     if (progress) progress("looking for the usual signs", 0, 1, "");
