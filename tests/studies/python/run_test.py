@@ -53,7 +53,7 @@ def test_results_are_those_of_the_command_line(pair, command, tmp_path, monkeypa
 def test_stored_results_say_what_was_not_as_expected(pair, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     expect = {"geometry.pinion.teeth": {"max": 3}}
-    results, stored = fw.run(pair | {"expect": expect}, folder="stored"), fw.load_results("stored")
+    results, stored = fw.run(pair | {"expect": expect}, out="stored"), fw.load_results("stored")
     assert not results.met and not stored.met
     assert stored.not_as_expected == results.not_as_expected != ""
 
