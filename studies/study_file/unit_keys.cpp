@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -131,12 +132,14 @@ std::vector<SchemaKey> unit_rows() {
          if (size * size == std::ssize(v.numbers)) stiffness.resize(size, size);
        }},
   });
-  const auto append = [&](const std::vector<SchemaKey>& more) { rows.insert(rows.end(), more.begin(), more.end()); };
-  append(shaft_section_rows<shaft_of>("unit.shafts[]"));
-  append(shaft_material_rows<shaft_of>("unit.shafts[]", "(as the pinion's)"));
+  const auto insert = [&](std::vector<SchemaKey>::const_iterator before, const std::vector<SchemaKey>& more) {
+    rows.insert(before, more.begin(), more.end());
+  };
+  insert(std::ranges::find(rows, "unit.shafts[].bearings", &SchemaKey::path), shaft_section_rows<shaft_of>("unit.shafts[]"));
+  insert(std::ranges::find(rows, "unit.meshes", &SchemaKey::path), shaft_material_rows<shaft_of>("unit.shafts[]", "(as the pinion's)"));
   constexpr BearingFallbacks fallbacks{.axial = "(0: slides)", .name = "(its shaft and a number)"};
-  append(bearing_rows<of_shaft>("unit.shafts[].bearings[]", fallbacks));
-  append(bearing_rows<of_joint>("unit.joints[]", fallbacks));
+  insert(rows.end(), bearing_rows<of_shaft>("unit.shafts[].bearings[]", fallbacks));
+  insert(rows.end(), bearing_rows<of_joint>("unit.joints[]", fallbacks));
   return rows;
 }
 
