@@ -43,6 +43,7 @@ quadrature = { rule = "gauss2", intervals = 4 }
 /// Numbers that no parameter moves by a derivative: places and counts, what a solver says of itself, what geometry and errors alone decide.
 bool has_no_derivative(const std::string& key) {
   static const std::set<std::string> keys{"torque_Nm",
+                                          "axial_offset_mm",
                                           "phase",
                                           "tooth",
                                           "z_mm",

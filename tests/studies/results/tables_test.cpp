@@ -86,7 +86,7 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
   std::map<std::string, double> sums;
   for (std::size_t i = 1; i < tables.at("load_sharing.csv").size(); ++i) {
     const Row& row = tables.at("load_sharing.csv")[i];
-    sums[row[0] + row[3]] += std::stod(row[6]);
+    sums[row[0] + row[4]] += std::stod(row[7]);
   }
   CHECK(sums.size() == 2 * 6);
   for (const auto& [position, sum] : sums) CHECK(sum == Approx(1).epsilon(1e-11));
