@@ -88,6 +88,12 @@ Distribution Distribution::grid(double low, double high, int n) {
   return values(std::move(levels));
 }
 
+double Distribution::widest() const {
+  constexpr double outer_share = 1e-6;
+  const std::vector<double> ends = levels() > 0 ? values_ : std::vector{quantile(outer_share), quantile(1.0 - outer_share)};
+  return *std::ranges::max_element(ends, {}, [](double value) { return std::abs(value); });
+}
+
 double Distribution::quantile(double u) const {
   assert(u > 0.0 && u < 1.0);
   switch (kind_) {

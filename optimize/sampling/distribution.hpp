@@ -40,6 +40,8 @@ class Distribution {
   /// @param u  0 < u < 1
   double quantile(double u) const;
   double median() const { return quantile(0.5); }
+  /// The value of the largest magnitude, of a continuous distribution but for a millionth beyond either end: for decisions that must hold for every draw.
+  double widest() const;
 
   bool operator==(const Distribution&) const = default;
 

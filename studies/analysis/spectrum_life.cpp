@@ -150,9 +150,8 @@ bool have_same_points(const MeshModel& one, const MeshModel& other) {
 /// Why the damage of a spectrum has no sum; nothing where it has: all load cases were solved, and their meshes have the same points.
 std::optional<std::string> why_not_summed(const StudyResults& results, const std::vector<CaseLife>& cases, const SpectrumLife& spectrum) {
   const auto model_of = [&](std::size_t c) -> const MeshModel& { return results.models[results.loaded[cases[c].loaded].model]; };
-  const auto of_scene = std::ranges::find(results.study.scenes, spectrum.scene, &Scene::name);
-  const auto loads = std::ranges::count_if(of_scene->torques, [](double torque) { return torque > 0.0; });
-  if (std::ssize(spectrum.cases) != loads) return "not all of its load cases were solved";
+  if (std::ssize(spectrum.cases) != results.loaded[cases[spectrum.cases.front()].loaded].spectrum_loads)
+    return "not all of its load cases were solved";
   const MeshModel& first = model_of(spectrum.cases.front());
   if (std::ranges::all_of(spectrum.cases, [&](std::size_t c) { return have_same_points(model_of(c), first); })) return std::nullopt;
   return "its load cases move the points of contact on the flanks, as fidelity.gap = \"whole_surface\" follows them";

@@ -5,9 +5,10 @@
 namespace flankwright::studies {
 
 FlankCondition condition_of(const Study& study, const Scene& scene) {
-  FlankCondition condition{{}, scene.error, scene.misalignment, loads_other_flanks(study, scene)};
-  condition.set_design(study.modification);
-  return condition;
+  DesignScene of_design;
+  of_design.condition = {{}, scene.error, scene.misalignment, loads_other_flanks(study, scene)};
+  of_design.deviations = scene.deviations;
+  return of_design.with_design(study.modification);
 }
 
 Scene under_load(Scene scene, const SpectrumBin& load) {

@@ -5,7 +5,7 @@
 
 namespace flankwright::studies {
 
-/// The flanks of a scene as the study has them, whatever effects are on.
+/// The flanks of a scene as the study has them, of drawn gears with what they differ by from the design, whatever effects are on.
 FlankCondition condition_of(const Study& study, const Scene& scene);
 
 /// A scene under a load of the spectrum, whose own misalignment comes on top.

@@ -39,6 +39,7 @@ struct LoadedResult {
   std::optional<LoadRating> rating{};              ///< none where peaks are sampled, or phases were given
   Operation operation{};                           ///< under this torque
   int bin{-1};                                     ///< index into Study::spectrum; -1: none
+  int spectrum_loads{0};                           ///< load cases that the spectrum has in this scene
   int compared_intervals{0};                       ///< of the cycle that the errors by points come from; 0: none was estimated
 };
 

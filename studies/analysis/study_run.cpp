@@ -111,6 +111,7 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
       loaded.weight *= bin.cycles / revolutions;
       loaded.spectrum = static_cast<int>(number);
       loaded.bin = static_cast<int>(k);
+      loaded.spectrum_loads = static_cast<int>(std::ranges::count_if(scene.torques, [](double t) { return t != 0.0; }));
       if (bin.mesh_misalignment == 0.0) continue;
       loaded.condition = apply_effects(results_.effects, condition_of(results_.study, under_load(scene, bin)));
     }
@@ -289,6 +290,7 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
       results_.loaded.back().compared_intervals = results_.study.fidelity.quadrature.intervals / 2;
     results_.loaded.back().operation = scene.operation;
     results_.loaded.back().bin = scene.bin;
+    results_.loaded.back().spectrum_loads = scene.spectrum_loads;
   }
 }
 

@@ -191,11 +191,7 @@ PerGear<Modification> DesignProblem::modification(const Eigen::VectorXd& x) cons
 }
 
 FlankCondition DesignProblem::condition(int scene, const PerGear<Modification>& modification) const {
-  const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
-  FlankCondition condition = of_task.condition;
-  condition.set_design(modification);
-  for (const ModificationDeviation& d : of_task.deviations) d.add_to(condition.modification);
-  return condition;
+  return task_.scenes[static_cast<std::size_t>(scene)].with_design(modification);
 }
 
 LoadedCycle DesignProblem::analyse_positions(int scene, std::span<const std::size_t> positions, const PerGear<Modification>& modification,

@@ -14,6 +14,13 @@ void ModificationDeviation::add_to(PerGear<Modification>& modification) const {
   }
 }
 
+FlankCondition DesignScene::with_design(PerGear<Modification> design) const {
+  for (const ModificationDeviation& d : deviations) d.add_to(design);
+  FlankCondition with = condition;
+  with.set_design(design);
+  return with;
+}
+
 bool DesignVariable::touches(Member of, ModificationParameter other) const {
   const ParameterDescription &own = describe(parameter), &row = describe(other);
   return member == of && (own.key == row.key || own.key == row.half || own.key == row.other_half || own.half == row.key || own.other_half == row.key);

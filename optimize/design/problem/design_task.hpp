@@ -138,8 +138,12 @@ struct DesignScene {
   Operation operation{};  ///< under this torque
   int spectrum{-1};       ///< load cases of the same number make up one load spectrum; -1: of none
   int bin{-1};            ///< which of the spectrum's, as its list counts them
+  int spectrum_loads{0};  ///< load cases of that spectrum
   std::vector<ModificationDeviation> deviations{};
   int draw{-1};  ///< load cases of the same number are one draw: the same gears in the same housing; -1: of none
+
+  /// The scene with a design and with what its gears differ from that by, both on the flank that it loads.
+  FlankCondition with_design(PerGear<Modification> design) const;
 };
 
 /// The variables of a design, its objectives and its constraints.

@@ -50,6 +50,9 @@ std::vector<const SchemaKey*> keys_of(StudyReading& reading, const Item& item) {
 void read_tolerance(StudyReading& reading, const Item& item, const GearPair* pair) {
   const std::string shown = std::string(table_name) + "." + item.name;
   for (const SchemaKey* key : keys_of(reading, item)) {
+    if (reading.find("load.spectrum") != nullptr && key->path.starts_with("load.")) {
+      return reading.refuse(item.position, shown, item.node, "every draw has all loads of load.spectrum: allowed is this or load.spectrum");
+    }
     const bool twice = std::ranges::any_of(tolerances_of(reading), [&](const SceneTolerance& t) { return t.path == key->path; });
     if (twice) return reading.refuse(item.position, shown, item.node, key->path + " is given twice");
     try {

@@ -93,6 +93,12 @@ std::vector<Scene> draw_scenes(const Study& study, const std::vector<SceneTolera
   return scenes;
 }
 
+Scene widest_scene(const Study& study) {
+  Scene scene = study.scenes.front();
+  for (const SceneTolerance& tolerance : study.tolerances) put(scene, tolerance, tolerance.distribution.widest());
+  return scene;
+}
+
 std::optional<RefusedDraw> find_refused_draw(const Study& study, const DrawnScenes& drawn) {
   const std::vector<SceneTolerance>& tolerances = study.tolerances;
   if (drawn.samples == 0 || tolerances.empty()) return std::nullopt;

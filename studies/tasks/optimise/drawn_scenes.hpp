@@ -26,6 +26,9 @@ std::vector<Scene> draw_scenes(const Study& study, const DrawnScenes& drawn);
 /// The same from tolerances other than the study's.
 std::vector<Scene> draw_scenes(const Study& study, const std::vector<SceneTolerance>& tolerances, const DrawnScenes& drawn);
 
+/// The first listed scene with every tolerance at Distribution::widest(), for decisions that must hold for every draw.
+Scene widest_scene(const Study& study);
+
 /// A value that its key does not accept.
 struct RefusedDraw {
   std::string path;     ///< of the tolerance

@@ -168,6 +168,16 @@ void check_optimise(StudyReading& reading) {
   const bool has_entry = variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
   if (!has_entry) reading.refuse_key("optimise.variables", "task \"optimise\" needs at least one variable");
   for (const DesignVariable& v : study.table<OptimiseTable>().variables) require_effect_of(reading, "optimise.variables." + v.path, v.path);
+  for (const LinkingConstraint& link : study.table<OptimiseTable>().links)
+    require_effect_of(reading, "optimise.ties." + link.linked.path, link.linked.path);
+  const bool draws_scenes = study.table<OptimiseTable>().assessment.scenes.samples > 0;
+  if (draws_scenes && std::ranges::any_of(study.scenes, [](const Scene& scene) { return scene.name.starts_with("drawn "); })) {
+    reading.refuse_key("scenes", "a scene has the name of one that is drawn, \"drawn 1\" and so on: allowed is another name");
+  }
+  for (const SceneTolerance& t : study.tolerances) {
+    const std::string own = "optimise.tolerances." + t.path;  // else of a class or a clearance, which cover several
+    require_effect_of(reading, reading.find(own) != nullptr ? own : "optimise.tolerances", t.path);
+  }
   if (!study.table<OptimiseTable>().constraints.empty() && !accepts_constraints(study.table<OptimiseTable>().solver.name)) {
     reading.refuse_key("optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
   }

@@ -337,7 +337,7 @@ class OptimiseRun {
   /// A scene with the modifications of a design.
   DesignScene scene_of(const DesignAnalysis& analysis, int s) const {
     DesignScene scene = found_.task.scenes[static_cast<std::size_t>(s)];
-    scene.condition.set_design(analysis.modification);
+    scene.condition = scene.with_design(analysis.modification);
     return scene;
   }
 

@@ -47,24 +47,25 @@ void read_optimise_tables(StudyReading& reading) {
   read_scatter(reading);
 }
 
-/// Variables count as modifications from the start, even where their first value is 0; of a compensation the least counts, which leaves most twist. What scatters counts as well: four scenes are enough
-/// to see a value other than 0.
-std::vector<FlankCondition> optimise_conditions(const Study& study) {
-  std::vector<FlankCondition> all = conditions_of(study);
-  for (FlankCondition& condition : all) {
-    for (const DesignVariable& v : study.table<OptimiseTable>().variables) {
-      const bool least = of_process(v.parameter) != nullptr || v.upper == 0.0;
-      set(condition.modification[v.member], v.parameter, least ? v.lower : v.upper);
-    }
-  }
-  for (const Scene& scene : draw_scenes(study, {.samples = study.tolerances.empty() ? 0 : 4})) all.push_back(condition_of(study, scene));
-  return all;
-}
-
 std::vector<DesignVariable> varied_modifications(const Study& study) {
   const OptimiseTable& asked = study.table<OptimiseTable>();
   std::vector<DesignVariable> all = asked.variables;
   for (const LinkingConstraint& link : asked.links) all.push_back(link.linked);
+  return all;
+}
+
+/// Variables, and what is tied to them, count as modifications from the start, even where their first value is 0; of a compensation the least counts, which leaves
+/// most twist. What scatters counts as well, with the design as it is given and with the variables.
+std::vector<FlankCondition> optimise_conditions(const Study& study) {
+  std::vector<FlankCondition> all = conditions_of(study);
+  if (!study.tolerances.empty()) all.push_back(condition_of(study, widest_scene(study)));
+  for (const FlankCondition& given : std::vector(all)) {
+    FlankCondition& varied = all.emplace_back(given);
+    for (const DesignVariable& v : varied_modifications(study)) {
+      const bool least = of_process(v.parameter) != nullptr || v.upper == 0.0;
+      set(varied.modification[v.member], v.parameter, least ? v.lower : v.upper);
+    }
+  }
   return all;
 }
 

@@ -5,6 +5,7 @@
 
 #include "optimize/design/design_optimiser.hpp"
 #include "studies/study/study.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
 
 namespace flankwright::studies {
 

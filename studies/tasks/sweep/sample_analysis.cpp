@@ -156,6 +156,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const SweptCondition& swept) 
     SampleCase& only = cases.emplace_back();
     only.loaded.torque = torque;
     only.loaded.operation = nominal_.loaded.front().operation;
+    only.loaded.operation.speed = swept.scene.speed;
     of_cases.push_back(case_outputs(only, swept, meshes));
   } else {
     for (const LoadedResult& nominal : nominal_.loaded) {

@@ -1,5 +1,7 @@
 #include "studies/tasks/sweep/sweep_design.hpp"
 
+#include <algorithm>
+
 namespace flankwright::studies {
 
 namespace {
@@ -48,6 +50,19 @@ std::vector<SweptCondition> extreme_conditions(const Study& study) {
       set_swept(conditions.back(), p, value);
     }
   }
+  SweptCondition together = SweptCondition::of(study);
+  for (const SweepParameter& p : study.table<SweepTable>().parameters) {
+    const SchemaKey& key = *study_keys().at(p.path);
+    const auto* parameter = std::get_if<ModificationParameter>(&key.store);
+    const bool takes_back = parameter != nullptr && of_process(*parameter) != nullptr;  // a compensation: the least leaves most
+    const double widest = p.distribution.widest(), held = takes_back ? key.range.low : std::clamp(widest, key.range.low, key.range.high);
+    if (p.pitch) {
+      set_swept(together, p, widest);
+    } else if (is_in_range(key, held)) {
+      set_swept(together, p, held);
+    }
+  }
+  conditions.push_back(together);
   return conditions;
 }
 

@@ -141,8 +141,9 @@ void check_sweep(StudyReading& reading) {
     return reading.refuse_key("scenes", "a sweep runs one working condition: vary its keys in sweep.parameters");
   }
   const bool has_spectrum = reading.find("load.spectrum") != nullptr;
-  if (has_spectrum && is_swept(study.table<SweepTable>(), "load.torque")) {
-    return reading.refuse_key("sweep.parameters.load.torque", "a sweep has all loads of load.spectrum: allowed is this or load.spectrum");
+  for (const std::string key : {"load.torque", "load.speed"}) {
+    if (!has_spectrum || !is_swept(study.table<SweepTable>(), key)) continue;
+    return reading.refuse_key("sweep.parameters." + key, "a sweep has all loads of load.spectrum: allowed is this or load.spectrum");
   }
   if (!has_spectrum && study.torques.size() > 1) {
     return reading.refuse_key("load.torque", "a sweep takes one torque, or load.torque = { values = [...] } in sweep.parameters");
