@@ -60,7 +60,7 @@ TEST_CASE("An effect is on where anything that varies calls for it: variables, t
   const std::string tie = "[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.profile_crowning\" }\n";
   CHECK(has_effect(profile + tie, "natural_twist"));
 
-  const std::string sweep = "task = \"sweep\"\n" + ground + "[sweep]\nsamples = 4\n[sweep.parameters]\n";
+  const std::string sweep = "task = \"sweep\"\n" + ground + "[sweep]\nsamples = 8\n[sweep.parameters]\n";
   // Given compensated and without an amount, neither of the two alone brings a twist.
   const std::string both = "\"pinion.twist_compensation\" = { values = [0, 1] }\n\"pinion.modification.lead_crowning\" = { values = [0, 20] }\n";
   std::string compensated = sweep + both;
