@@ -130,7 +130,10 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   };
   const auto peaks_apart = [&](const auto& reading) { return of_peaks * peak_difference(samples_of(reading), coarse.positions.size()); };
   double low = infinity, high = -infinity;
-  for (const Sample& te : samples_of(te_of)) low = std::min(low, te.fine - te.coarse), high = std::max(high, te.fine - te.coarse);
+  for (const Sample& te : samples_of(te_of)) {
+    low = std::min(low, te.fine - te.coarse);
+    high = std::max(high, te.fine - te.coarse);
+  }
   const double scatter = of_harmonics * rms_about_mean(d);
   errors.te_mean = mean_error_by_points(d);
   errors.te_peak_to_peak = of_shape * (high - low);
