@@ -44,7 +44,8 @@ function draw_histogram(name, of) {
   const width = 300, height = 150, left = 8, right = 8, top = 26, bottom = 34;
   const { low, high, counts } = record(of.histogram);
   const bars = numbers(counts), highest = maximum(bars) || 1, unit = sweep_unit(of.unit);
-  const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
+  const all_alike = !(high > low);  // one bar in the middle
+  const to_x = (value) => (all_alike ? width / 2 : left + ((width - left - right) * (value - low)) / (high - low));
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img",
     "aria-label": `Histogram of ${words(name)}` });
   picture.append(svg("text", { x: left, y: 14, "font-weight": 600, "font-size": 13 }, ...subscripts(capital(words(name))), unit ? ` [${unit}]` : ""));
@@ -52,7 +53,7 @@ function draw_histogram(name, of) {
   bars.forEach((count, i) => {
     const size = ((height - top - bottom) * count) / highest;
     const from = low + ((high - low) * i) / bars.length, to = low + ((high - low) * (i + 1)) / bars.length;
-    picture.append(svg("rect", { x: left + bar * i, y: height - bottom - size, width: Math.max(bar - 0.8, 0.5), height: size,
+    picture.append(svg("rect", { x: all_alike ? (width - bar) / 2 : left + bar * i, y: height - bottom - size, width: Math.max(bar - 0.8, 0.5), height: size,
       fill: css_colour("after") }, svg("title", {}, `${fmt(from)} … ${fmt(to)} ${unit}: ${fmt(count, 9)} samples`)));
   });
   const quantiles = record(of.quantiles);
@@ -62,7 +63,7 @@ function draw_histogram(name, of) {
       "stroke-width": 1.2, "stroke-dasharray": label === "mean" ? null : "3 3" }, svg("title", {}, `${label}: ${fmt(value)} ${unit}`)));
   }
   picture.append(svg("line", { x1: left, x2: width - right, y1: height - bottom, y2: height - bottom, class: "grid-line" }));
-  for (const tick of high > low ? round_ticks(low, high, 4) : [low]) {
+  for (const tick of all_alike ? [low] : round_ticks(low, high, 4)) {
     picture.append(svg("text", { x: to_x(tick), y: height - bottom + 16, "text-anchor": "middle", class: "muted" }, fmt(tick)));
   }
   return picture;
