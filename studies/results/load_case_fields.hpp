@@ -6,7 +6,7 @@
 
 namespace flankwright::studies {
 
-/// The columns by which every table names a load case. The bin counts the loads of a spectrum from 0 and is empty without one: two of them may have one torque.
+/// The columns by which every table names a load case. The bin counts the loads of a spectrum from 0, because two of them may have one torque. It is empty without a spectrum.
 inline constexpr const char* load_case_columns = "scene,torque_Nm,design,bin";
 
 /// These fields of one load case, without a comma behind them.

@@ -43,7 +43,7 @@ std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableT
 std::vector<std::string> library_notes(const ComplianceTask& task);
 
 /// A line for each gear that is taken as one with a shaft of less than a quarter of its reference diameter because no diameter was given: the default is at most
-/// 25 modules, and the disc around a thin shaft then yields more than the teeth.
+/// 25 modules, and the disc around a thin shaft then has a large part in the deflection of the mesh.
 /// @throws InvalidInput  as influence_table_task()
 std::vector<std::string> thin_shaft_notes(const ComplianceTask& task);
 

@@ -11,7 +11,7 @@ namespace flankwright::studies {
 
 namespace {
 
-/// Beside the scenes a flank that has what derivatives are asked by: each modification other than 0, and nothing of a twist taken back.
+/// The scenes, and one flank on which every modification that derivatives are asked by is other than 0 and no twist is compensated.
 std::vector<FlankCondition> analyse_conditions(const Study& study) {
   constexpr double some = 1e-3;  // mm: whatever is not 0 counts
   std::vector<FlankCondition> all = conditions_of(study);

@@ -37,13 +37,13 @@ std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, 
   return fmt::format("The scene \"{}\"{} governs{} with weight {:.2f}.", of_task.name, torque, of_list, scene.weight);
 }
 
-/// By how much moving a limit would reduce the objective, where that is more than the optimum is known to. It is counted by the slope, which says nothing of a
-/// step by which the objective would fall by a third and more: damages grow with high powers of the loads.
+/// By how much moving a limit would reduce the objective, where that is more than the optimum is known to. It is counted by the slope. A step is too
+/// large for that where the objective would fall by a third or more, as damages do, which grow with high powers of the loads.
 std::string gain_in_words(double gain, const std::string& move, const Optimum& optimum, const DesignTask& task) {
   if (!(std::abs(gain) > optimum.resolution)) return fmt::format("{} would not reduce the {}.", move, objective_of(task));
   constexpr double far = 1.0 / 3.0;
   if (std::abs(gain) > far * std::abs(optimum.value))
-    return fmt::format("{} would reduce the {} by much, more than its slope can tell.", move, objective_of(task));
+    return fmt::format("{} would reduce the {}; the step is too large for its slope to tell by how much.", move, objective_of(task));
   return fmt::format("{} would reduce the {} by {:.2g}{}.", move, objective_of(task), -gain, behind_number(task.objective_unit()));
 }
 

@@ -40,8 +40,8 @@ class SweepDesign {
 /// @throws InvalidInput where it is out of the key's range
 void set_swept(SweptCondition& condition, const SweepParameter& parameter, double value);
 
-/// What the parameters do at the low and at the high end of their distributions, one by one, where that is in the range of their keys, and all together where they
-/// call for most: at Distribution::widest(), held to the range, and without compensation of a twist. For decisions that must hold for every sample.
+/// What the parameters do at the low and at the high end of their distributions, one by one, where that is in the range of their keys, and all together where most effects
+/// are called for: at Distribution::widest(), held to the range, and without compensation of a twist. For decisions that must hold for every sample.
 std::vector<SweptCondition> extreme_conditions(const Study& study);
 
 }  // namespace flankwright::studies
