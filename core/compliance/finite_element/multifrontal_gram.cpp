@@ -1,9 +1,5 @@
 #include "core/compliance/finite_element/multifrontal_gram.hpp"
 
-extern "C" {  // which some vendors' header leaves to us
-#include <cblas.h>
-}
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -16,6 +12,7 @@ extern "C" {  // which some vendors' header leaves to us
 #include "core/base/stopwatch.hpp"
 #include "core/base/taken.hpp"
 #include "core/compliance/finite_element/one_core.hpp"
+#include "core/compliance/finite_element/panel_products.hpp"
 #include "core/compliance/finite_element/supernodal_gram.hpp"
 #include "core/compliance/finite_element/symbolic_factor.hpp"
 
@@ -26,7 +23,7 @@ namespace {
 constexpr int kEntryByEntry = 16;
 
 /// L of a dense lower triangle, in place; false where a pivot is not positive.
-bool factorise(int n, double* a, int stride) {
+bool factorise(const PanelProducts& products, int n, double* a, int stride) {
   if (n <= kEntryByEntry) {
     for (int j = 0; j < n; ++j) {
       double* column = a + static_cast<std::ptrdiff_t>(j) * stride;
@@ -42,10 +39,10 @@ bool factorise(int n, double* a, int stride) {
   }
   const int half = n / 2, rest = n - half;
   double *below = a + half, *last = below + static_cast<std::ptrdiff_t>(half) * stride;
-  if (!factorise(half, a, stride)) return false;
-  cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, rest, half, 1.0, a, stride, below, stride);
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, rest, half, -1.0, below, stride, 1.0, last, stride);
-  return factorise(rest, last, stride);
+  if (!factorise(products, half, a, stride)) return false;
+  products.solve_from_right(rest, half, a, stride, below, stride);
+  products.subtract_outer(rest, half, below, stride, last, stride);
+  return factorise(products, rest, last, stride);
 }
 
 /// Entries of a lower triangle by columns.
@@ -84,8 +81,8 @@ struct EliminationPlan {
 /// The fronts of one elimination after the other.
 class Fronts {
  public:
-  Fronts(const Supernodes& supernodes, const EliminationPlan& plan, const Eigen::SparseMatrix<double>& ordered)
-      : supernodes_(supernodes), plan_(plan), ordered_(ordered), place_(static_cast<std::size_t>(supernodes.rows())) {
+  Fronts(const Supernodes& supernodes, const EliminationPlan& plan, const Eigen::SparseMatrix<double>& ordered, const PanelProducts& products)
+      : supernodes_(supernodes), plan_(plan), ordered_(ordered), products_(products), place_(static_cast<std::size_t>(supernodes.rows())) {
     stack_.resize(plan.stack);
     front_.resize(plan.front);
   }
@@ -104,15 +101,15 @@ class Fronts {
     }
     for (int child = 0; child < plan_.children[s]; ++child) take_update(s, block, update);
 
-    if (!factorise(size, block, height)) return nullptr;
+    if (!factorise(products_, size, block, height)) return nullptr;
     for (int j = 0; j < size; ++j) {
       const double pivot = block[static_cast<std::size_t>(j) * height + j];
       least_ = std::min(least_, pivot);
       most_ = std::max(most_, pivot);
     }
     if (below == 0) return block;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, below, size, 1.0, block, height, block + size, height);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, below, size, -1.0, block + size, height, 1.0, update, below);
+    products_.solve_from_right(below, size, block, height, block + size, height);
+    products_.subtract_outer(below, size, block + size, height, update, below);
     leave_update(s, update);
     return block;
   }
@@ -149,6 +146,7 @@ class Fronts {
   const Supernodes& supernodes_;
   const EliminationPlan& plan_;
   const Eigen::SparseMatrix<double>& ordered_;
+  const PanelProducts& products_;
   std::vector<double> stack_, front_;
   std::size_t top_{0};        ///< entries on the stack
   std::vector<int> waiting_;  ///< supernodes whose updates are on the stack
@@ -171,16 +169,17 @@ double bytes_of(const Matrix& sparse) {
 }
 
 MultifrontalGram eliminate(Eigen::SparseMatrix<double> lower, const Eigen::VectorXi& node_of,
-                           const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit,
-                           const EliminationProgress& progress) {
+                           const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit, const EliminationProgress& progress,
+                           const ForEachIndex& for_each) {
   const Stopwatch clock;
   const OneCore serial;
+  const PanelProducts products(for_each);
   MultifrontalGram result;
   const SymbolicFactor symbolic(lower, node_of);
   if (symbolic.l == nullptr) throw std::bad_alloc();
   const Supernodes supernodes(*symbolic.l);
   const EliminationPlan plan(supernodes);
-  SupernodalGram gram(supernodes, right_sides);
+  SupernodalGram gram(supernodes, right_sides, products);
   const double matrix = bytes_of(lower), numbers = sizeof(double) * static_cast<double>(plan.stack + plan.front);
   result.factor_entries = plan.factor_entries;
   result.peak_bytes = bytes_of(right_sides) + static_cast<double>(symbolic.common.memory_inuse) + matrix + std::max(matrix, numbers + gram.bytes());
@@ -190,7 +189,7 @@ MultifrontalGram eliminate(Eigen::SparseMatrix<double> lower, const Eigen::Vecto
     return result;
   }
   const Eigen::SparseMatrix<double> ordered = in_order(taken(lower), supernodes);
-  Fronts fronts(supernodes, plan, ordered);
+  Fronts fronts(supernodes, plan, ordered, products);
   double done = 0;
   for (int s = 0; s < supernodes.count(); ++s) {
     const double* block = fronts.eliminate(s);
@@ -209,9 +208,9 @@ MultifrontalGram eliminate(Eigen::SparseMatrix<double> lower, const Eigen::Vecto
 
 MultifrontalGram multifrontal_gram(Eigen::SparseMatrix<double>&& lower, const Eigen::VectorXi& node_of,
                                    const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit,
-                                   const EliminationProgress& progress) {
+                                   const EliminationProgress& progress, const ForEachIndex& for_each) {
   try {
-    return eliminate(taken(lower), node_of, right_sides, memory_limit, progress);
+    return eliminate(taken(lower), node_of, right_sides, memory_limit, progress, for_each);
   } catch (const std::bad_alloc&) {
     MultifrontalGram result;
     result.status = FactorStatus::OutOfMemory;

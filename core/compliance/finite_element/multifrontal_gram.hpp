@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <functional>
 
+#include "core/base/for_each_index.hpp"
 #include "core/compliance/finite_element/sparse_cholesky.hpp"
 #include "core/gear/gear_data.hpp"
 
@@ -31,12 +32,13 @@ using EliminationProgress = std::function<void(double)>;
 /// a fraction of the whole factor's memory. The operations are those of SparseCholesky and SparseCholesky::gram(), in another order:
 /// equal to round-off.
 ///
-/// Runs on one core: same input, same bits.
+/// Same input, same bits, whatever the number of threads.
 /// @param lower, node_of  as SparseCholesky; the matrix is taken() and freed as soon as it is ordered
 /// @param right_sides     B, n x k
 /// @param memory_limit    OutOfMemory where peak_bytes > memory_limit [bytes], before the elimination, and where an allocation fails
+/// @param for_each        shares panels of large blocks among threads, PanelProducts; empty: all on the calling thread
 MultifrontalGram multifrontal_gram(Eigen::SparseMatrix<double>&& lower, const Eigen::VectorXi& node_of,
                                    const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit,
-                                   const EliminationProgress& progress = {});
+                                   const EliminationProgress& progress = {}, const ForEachIndex& for_each = {});
 
 }  // namespace flankwright

@@ -282,10 +282,10 @@ Eigen::MatrixXd SolidModel::influence(const Eigen::SparseMatrix<double>& loads) 
 }
 
 MultifrontalGram influence_at_once(SolidStiffness&& stiffness, Eigen::SparseMatrix<double>&& loads, double memory_limit,
-                                   const EliminationProgress& progress) {
+                                   const EliminationProgress& progress, const ForEachIndex& for_each) {
   assert(loads.rows() == stiffness.motion.rows());
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_unknowns = taken(stiffness.motion).transpose() * taken(loads);
-  return multifrontal_gram(taken(stiffness.lower), stiffness.node_of, by_unknowns, memory_limit, progress);
+  return multifrontal_gram(taken(stiffness.lower), stiffness.node_of, by_unknowns, memory_limit, progress, for_each);
 }
 
 }  // namespace flankwright

@@ -112,7 +112,7 @@ class TableSolver {
  public:
   TableSolver(const InfluenceTableTask& task, const TableProgress& progress, InfluenceTableRun& run) : task_(task), progress_(progress), run_(run) {}
 
-  void solve(double memory_limit) {
+  void solve(double memory_limit, const ForEachIndex& for_each) {
     report(0);
     const Stopwatch clock;
     GearMeshOptions options = task_.mesh;
@@ -133,10 +133,11 @@ class TableSolver {
     FlankFunctionals functionals(mesh, stations.points(mesh), task_.removed, taken(readings));
     const double model = clock.seconds();
     int last = 0;
-    const MultifrontalGram solved = influence_at_once(std::move(stiffness), std::move(functionals.all), memory_limit, [&](double done) {
+    const auto progress = [&](double done) {
       const int step = kModelSteps + static_cast<int>(std::floor(done * (kTableSteps - kModelSteps - 1)));
       if (step > last) report(last = step);
-    });
+    };
+    const MultifrontalGram solved = influence_at_once(std::move(stiffness), std::move(functionals.all), memory_limit, progress, for_each);
     run_.status = solved.status;
     statistics.factor_entries = solved.factor_entries;
     statistics.peak_bytes = solved.peak_bytes;
@@ -177,14 +178,15 @@ class TableSolver {
 
 }  // namespace
 
-InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit, const TableProgress& progress) {
+InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit, const TableProgress& progress,
+                                        const ForEachIndex& for_each) {
   const double face_width = task.gear.gear.face_width / task.gear.normal_module;
   if (!(std::abs(task.grid.face_width() - face_width) <= 1e-9 * face_width)) {  // round-off of the division
     throw InvalidInput("grid", std::to_string(task.grid.face_width()) + " modules", std::to_string(face_width));
   }
   InfluenceTableRun run;
   try {
-    TableSolver(task, progress, run).solve(memory_limit);
+    TableSolver(task, progress, run).solve(memory_limit, for_each);
   } catch (const std::bad_alloc&) {
     run.status = FactorStatus::OutOfMemory;
     run.table.reset();

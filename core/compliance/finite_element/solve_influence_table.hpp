@@ -55,10 +55,12 @@ using TableProgress = std::function<void(int done, int total)>;
 /// reads the deflections of its neighbours at their own stations. T_m is the mean of two reciprocal values, the deflection on tooth -m and,
 /// transposed, on tooth m. They differ only by the neighbours' coarser mesh.
 ///
-/// Runs on one thread, E = m_n = 1: same input, same bits.
+/// E = m_n = 1. Same input, same bits, whatever the number of threads.
 /// @param memory_limit  OutOfMemory where statistics.peak_bytes > memory_limit, once the matrix is ordered, and where an
 ///                      allocation fails after all
+/// @param for_each      as multifrontal_gram()
 /// @throws InvalidInput  as gear_mesh(), and "grid" where it is not as wide as the face
-InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit, const TableProgress& progress = {});
+InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit, const TableProgress& progress = {},
+                                        const ForEachIndex& for_each = {});
 
 }  // namespace flankwright

@@ -72,7 +72,8 @@ Eigen::MatrixXd SparseCholesky::gram(const Eigen::SparseMatrix<double, Eigen::Ro
   assert(status_ == FactorStatus::Factorised);
   const OneCore serial;
   const Supernodes supernodes(*factor_->l);
-  SupernodalGram gram(supernodes, right_sides);
+  const PanelProducts products({});
+  SupernodalGram gram(supernodes, right_sides, products);
   for (int s = 0; s < supernodes.count(); ++s) gram.take(s, supernodes.block(s));
   return std::move(gram).result();
 }

@@ -1,9 +1,5 @@
 #include "core/compliance/finite_element/supernodal_gram.hpp"
 
-extern "C" {  // which some vendors' header leaves to us
-#include <cblas.h>
-}
-
 #include <algorithm>
 #include <cassert>
 #include <iterator>
@@ -52,9 +48,10 @@ std::vector<int> places_in(const std::vector<int>& list, const std::vector<int>&
 
 }  // namespace
 
-SupernodalGram::SupernodalGram(const Supernodes& supernodes, const RowSparse& right_sides)
+SupernodalGram::SupernodalGram(const Supernodes& supernodes, const RowSparse& right_sides, const PanelProducts& products)
     : supernodes_(supernodes),
       right_sides_(right_sides),
+      products_(products),
       columns_(reach(supernodes, right_sides)),
       waiting_(columns_.size()),
       gram_(Eigen::MatrixXd::Zero(right_sides.cols(), right_sides.cols())) {
@@ -100,8 +97,7 @@ void SupernodalGram::take(int s, const double* block) {
       y(i, std::ranges::lower_bound(columns, entry.col()) - columns.begin()) += entry.value();
     }
   }
-  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size, static_cast<int>(y.cols()), 1.0, block, supernodes_.height(s),
-              y.data(), size);
+  products_.solve_from_left(size, static_cast<int>(y.cols()), block, supernodes_.height(s), y.data(), size);
   add_products(s, y);
   pass_upwards(s, block, y);
 }
@@ -110,11 +106,11 @@ void SupernodalGram::add_products(int s, const Eigen::MatrixXd& y) {
   const std::vector<int>& columns = columns_[s];
   const auto size = static_cast<int>(y.rows()), count = static_cast<int>(y.cols());
   if (count == gram_.cols()) {  // all columns, in their order
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 1.0, gram_.data(), count);
+    products_.add_inner(count, size, y.data(), size, 1.0, gram_.data(), count);
     return;
   }
   product_.resize(count, count);
-  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 0.0, product_.data(), count);
+  products_.add_inner(count, size, y.data(), size, 0.0, product_.data(), count);
   for (int j = 0; j < count; ++j) {
     for (int i = j; i < count; ++i) gram_(columns[i], columns[j]) += product_(i, j);
   }
@@ -125,8 +121,7 @@ void SupernodalGram::pass_upwards(int s, const double* block, const Eigen::Matri
   for (int begin = 0; begin < below; begin += kRowsAtOnce) {
     const int rows = std::min(kRowsAtOnce, below - begin);
     product_.resize(rows, count);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, count, size, 1.0, block + size + begin, height, y.data(), size, 0.0, product_.data(),
-                rows);
+    products_.multiply(rows, count, size, block + size + begin, height, y.data(), size, product_.data(), rows);
     for (int i = 0; i < rows;) {
       const auto row = [&](int r) { return supernodes_.row(s, size + begin + r); };
       const int above = supernodes_.of_row(row(i));

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
+#include "core/compliance/finite_element/panel_products.hpp"
 #include "core/compliance/finite_element/supernodes.hpp"
 
 namespace flankwright {
@@ -21,8 +22,8 @@ namespace flankwright {
 /// of L is needed once, so that it may go when it was taken.
 class SupernodalGram {
  public:
-  /// @param supernodes, right_sides  must live as long as this; B by rows of A
-  SupernodalGram(const Supernodes& supernodes, const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides);
+  /// @param supernodes, right_sides, products  must live as long as this; B by rows of A
+  SupernodalGram(const Supernodes& supernodes, const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, const PanelProducts& products);
 
   /// The most that take() and result() hold at one time [bytes].
   double bytes() const;
@@ -39,6 +40,7 @@ class SupernodalGram {
 
   const Supernodes& supernodes_;
   const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides_;
+  const PanelProducts& products_;
   std::vector<std::vector<int>> columns_;  ///< for every supernode the columns of B that reach it, ascending
   std::vector<Eigen::MatrixXd> waiting_;   ///< what those below leave of W_s, by the columns that reach it
   Eigen::MatrixXd gram_, product_;

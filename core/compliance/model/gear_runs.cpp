@@ -69,7 +69,8 @@ std::vector<Job> jobs_of(const ComplianceTask& pair) {
       jobs.push_back({.uses = {use}, .task = std::move(task)});
     }
   };
-  for (const Member member : {Member::Pinion, Member::Wheel}) {
+  // As a rule the wheel takes longer. It goes to the thread that waits for the others at the end: the thread that ends first then shares its panels.
+  for (const Member member : {Member::Wheel, Member::Pinion}) {
     InfluenceTableTask task = influence_table_task(pair, member);
     if (!unknown_to_library(pair, task).empty()) {
       InfluenceTableTask fit = task_of_fit(task), fine = fit;
@@ -139,8 +140,8 @@ void solve_side_by_side(const std::vector<Job*>& jobs, ComplianceModel model, co
   const auto solve = [&](std::size_t i) {
     const Stopwatch clock;
     Job& job = *jobs[i];
-    job.run = with_gear_names(model, job.member(),
-                              [&] { return solve_influence_table(job.task, limit, [&](int done, int total) { progress.at(i, done, total); }); });
+    const auto report = [&](int done, int total) { progress.at(i, done, total); };
+    job.run = with_gear_names(model, job.member(), [&] { return solve_influence_table(job.task, limit, report, build.for_each); });
     job.seconds = clock.seconds();
   };
   run_for_each(build.for_each, jobs.size(), solve);
