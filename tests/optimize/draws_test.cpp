@@ -136,6 +136,18 @@ TEST_CASE("The model of a draw with two load cases is exact at the design analys
   }
 }
 
+TEST_CASE("What a drawn gear differs by is ground on it like its design, whichever flank it loads", "[optimize][design][scatter]") {
+  const ModificationParameter slope = parameter_of("lead_slope");
+  DesignScene drawn_gear = design_tasks::spur({0.0}).scenes.front(), exact = drawn_gear;
+  drawn_gear.condition.other_flanks = exact.condition.other_flanks = GENERATE(false, true);
+  drawn_gear.deviations = {{.member = Member::Pinion, .parameter = slope, .value = 5.0 * units::um}};
+  PerGear<Modification> design = crowned(), ground = design;
+  set(ground.pinion, slope, 5.0 * units::um);
+  const double of_drawn = get(drawn_gear.with_design(design).modification.pinion, slope);
+  CHECK(of_drawn == get(exact.with_design(ground).modification.pinion, slope));
+  CHECK(of_drawn == (exact.condition.other_flanks ? -5.0 : 5.0) * units::um);  // it removes at the other end as that flank sees it
+}
+
 TEST_CASE("Designs are tried and predicted by draws and not by their load cases", "[optimize][assessment][scatter]") {
   const DesignTask task = drawn(statistics_tried[0], {drive, coast});
   const std::vector<double> both = validate_designs(task, task.scenes, {{"crowned", "", crowned()}}).front().measures;

@@ -173,13 +173,23 @@ inline const ContactMeshOptions& contact_mesh_options(std::string_view name) {
       {"layers", {.flank = 10, .across = 3, .finest = 0.4, .end_layer = 0.2, .layer_growth = 1.8, .largest_layer = 3}},
       {"fine layers", {.flank = 14, .across = 4, .finest = 0.25, .end_layer = 0.1, .layer_growth = 1.6, .largest_layer = 3}},
       {"lines", {.flank = 16, .fillet = 2, .across = 4, .finest = 0.3, .into_depth = 2, .end_layer = 0.8, .layer_growth = 1.7, .largest_layer = 10}},
+      {"line ends",
+       {.flank = 12,
+        .fillet = 2,
+        .across = 3,
+        .finest = 0.4,
+        .into_depth = 2.4,
+        .end_layer = 0.8,
+        .layer_growth = 1.7,
+        .largest_layer = 8,
+        .line_layer = 0.5}},
       {"roots", {.flank = 10, .fillet = 6, .far_fillet = 2, .across = 4, .gap_depth = 1.8, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8}},
       {"fine roots", {.flank = 10, .fillet = 10, .far_fillet = 2, .across = 5, .into_depth = 2, .gap_depth = 1.8}},
       {"pressure", {.flank = 24, .across = 5, .finest = 0.15}},  // for the narrow pair
   };
   const auto found = meshes.find(name);
   if (found == meshes.end())
-    throw InvalidInput("mesh", std::string(name), "coarse, medium, fine, ends, layers, fine layers, lines, roots, fine roots or pressure");
+    throw InvalidInput("mesh", std::string(name), "coarse, medium, fine, ends, layers, fine layers, lines, line ends, roots, fine roots or pressure");
   return found->second;
 }
 

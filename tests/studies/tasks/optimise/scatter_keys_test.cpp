@@ -69,6 +69,14 @@ TEST_CASE("A draw whose axes are so far apart that no teeth meet is refused", "[
 TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\n").allowed, Contains("set optimise.tolerances or optimise.scatter.iso_1328_class"));
   CHECK_THAT(problem_of("[optimise.scatter]\niso_1328_class = 6\n").allowed, Contains("draws above 0"));
+  for (const std::string key : {"load.torque", "load.speed"}) {
+    const StudyProblem problem = problem_of("[optimise.tolerances]\n\"" + key + "\" = { uniform = [90, 110] }\n",
+                                            {{"task", "\"optimise\""},
+                                             {"load", "{ speed = 1000, spectrum = [{ torque = 100, hours = 1 }, { torque = 80, hours = 9 }] }"},
+                                             {"optimise.variables.pinion.modification.lead_crowning", "[0, 10]"}});
+    CHECK_THAT(problem.key, Contains(key));
+    CHECK_THAT(problem.allowed, Contains("load.spectrum"));
+  }
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nstatistic = { cvar = 0.9, quantile = 0.9 }\n").allowed,
              Contains("another statistic"));
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nfresh = 10\nfresh_seed = 1\n").allowed, Contains("same draws"));

@@ -7,7 +7,9 @@
 #include "studies/results/results_json.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_file/life_texts.hpp"
 #include "tests/studies/study_texts.hpp"
 
 /// What the results say of a search over draws.
@@ -90,6 +92,40 @@ TEST_CASE("A draw runs through all operating states, and results count draws", "
     if (scene["name"] == "coast") aligned_coast = scene["after"].get<double>();
   }
   CHECK(scatter["value"].get<double>() > aligned_coast);
+}
+
+TEST_CASE("Draws under a load spectrum have the damage of the design, as much as they scatter", "[studies][scatter][life]") {
+  const auto study = [](const std::string& deviation) {
+    return "task = \"optimise\"\n" + life_pair + life_strength + R"(
+[load]
+speed = 1500
+spectrum = [{ torque = 300, hours = 10 }, { torque = 200, hours = 1000, mesh_misalignment = 6 }]
+[optimise]
+objective = "contact_damage"
+[optimise.comparison]
+rules = "off"
+[optimise.variables]
+"pinion.modification.lead_crowning" = [2, 20]
+[optimise.tolerances]
+"misalignment.mesh_misalignment" = { normal = [0, )" +
+           deviation + R"(] }
+[optimise.validation]
+samples = 8
+seed = 2
+[optimise.scatter]
+draws = 8
+statistic = { quantile = 0.9 }
+predicted_from = 0
+)";
+  };
+  const StudyResults still = run_study(parse_study(study("1e-6"), "still.toml"));
+  const Json optimise = Json::parse(results_json(still))["optimise"], &scatter = optimise["scatter"];
+  REQUIRE(scatter["draws"] == 8);
+  // Draws that do not scatter; what is left is how far the searches converge.
+  CHECK(scatter["value"].get<double>() == Approx(optimised(still).design.after.objective).epsilon(1e-3));
+  CHECK(optimise["validation"]["designs"][1]["greatest"].get<double>() == Approx(scatter["value"].get<double>()).epsilon(1e-4));
+  const Json moved = results_of(study("4"))["optimise"]["scatter"];
+  CHECK(moved["value"].get<double>() > 1.05 * scatter["value"].get<double>());
 }
 
 TEST_CASE("A class has the same design whatever the list, and the study's own class has the study's design", "[studies][scatter]") {

@@ -103,13 +103,15 @@ TEST_CASE("A sample under a load spectrum has the worst of its loads and the dam
 }
 
 TEST_CASE("Samples have the loss, film and safety that the analysis of their own study has", "[studies][sweep][life]") {
-  const std::vector<Override> life{{"load.speed", "1000"},
-                                   {"material.contact_endurance_limit", "1500"},
-                                   {"lubricant.viscosity_40", "220"},
-                                   {"lubricant.viscosity_100", "19"},
-                                   {"lubricant.temperature", "80"},
-                                   {"lubricant.roughness", "0.5"},
-                                   {"lubricant.permissible_film", "0.2"}};
+  const bool varies_speed = GENERATE(false, true);
+  const std::vector<Override> life{
+      {varies_speed ? "sweep.parameters" : "load.speed", varies_speed ? "{ \"load.speed\" = { uniform = [500, 2000] } }" : "1000"},
+      {"material.contact_endurance_limit", "1500"},
+      {"lubricant.viscosity_40", "220"},
+      {"lubricant.viscosity_100", "19"},
+      {"lubricant.temperature", "80"},
+      {"lubricant.roughness", "0.5"},
+      {"lubricant.permissible_film", "0.2"}};
   const Study study = sweep_study("samples = 4\nindices = \"off\"", "", life);
   const std::vector<StoredSample> samples = samples_of(study);
   const auto outputs = SampleAnalysis(run_study(study)).outputs();
@@ -119,15 +121,19 @@ TEST_CASE("Samples have the loss, film and safety that the analysis of their own
     return sample.result.outputs[static_cast<std::size_t>(found - outputs.begin())];
   };
   REQUIRE(samples.size() == 4);
+  if (varies_speed) CHECK(value(samples[0], "flash_temperature_K") != value(samples[1], "flash_temperature_K"));
+  double power_by_speed = 0;
   for (const StoredSample& sample : samples) {
     REQUIRE(sample.result.failure.empty());
     const StudyResults alone = run_study(parse_study(sample_study(study, "one", sample.values), "one.toml", {{"cycle.peaks", "sampled"}}));
     const CaseLife& of = alone.life.value().cases.at(0);
+    if (power_by_speed == 0) power_by_speed = of.power / sample.values.at(0);
     CHECK(value(sample, "loss_factor") == of.loss_factor);
     CHECK(value(sample, "loss_power_W") == of.loss_power);
     CHECK(value(sample, "micropitting_safety") == of.micropitting_safety);
     CHECK(value(sample, "flash_temperature_K") == of.flash_temperature);
     CHECK(value(sample, "contact_safety") == std::fmin(of.contact_safety.pinion, of.contact_safety.wheel));
+    if (varies_speed) CHECK(of.power / sample.values.at(0) == Approx(power_by_speed).epsilon(1e-12));  // round-off
   }
   // Nobody gave a strength of the roots or a scuffing temperature.
   for (const char* name : {"root_safety", "scuffing_safety"}) CHECK(std::ranges::find(outputs, name, &SweepOutput::name) == outputs.end());

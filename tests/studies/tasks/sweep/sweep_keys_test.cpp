@@ -127,6 +127,10 @@ TEST_CASE("A sweep without parameters, or with a list of torques, is refused", "
   CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml", {{"load.torque", "[1, 2]"}}), Contains("a sweep takes one torque"));
   CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml", {{"load", "{ spectrum = [{ torque = 9, cycles = 1 }, { torque = 8, cycles = 1 }] }"}}),
                     Contains("sweep.parameters.load.torque") && Contains("allowed is this or load.spectrum"));
+  CHECK_THROWS_WITH(parse_study(small::sweep(""), "s.toml",
+                                {{"load", "{ spectrum = [{ torque = 9, cycles = 1 }, { torque = 8, cycles = 1 }] }"},
+                                 {"sweep.parameters", "{ \"load.speed\" = { uniform = [500, 2000] } }"}}),
+                    Contains("sweep.parameters.load.speed") && Contains("load.spectrum"));
 }
 
 }  // namespace
