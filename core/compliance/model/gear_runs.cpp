@@ -69,8 +69,7 @@ std::vector<Job> jobs_of(const ComplianceTask& pair) {
       jobs.push_back({.uses = {use}, .task = std::move(task)});
     }
   };
-  // As a rule the wheel takes longer. It goes to the thread that waits for the others at the end: the thread that ends first then shares its panels.
-  for (const Member member : {Member::Wheel, Member::Pinion}) {
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
     InfluenceTableTask task = influence_table_task(pair, member);
     if (!unknown_to_library(pair, task).empty()) {
       InfluenceTableTask fit = task_of_fit(task), fine = fit;
@@ -137,8 +136,10 @@ bool take(Job& job, ComplianceStore* store) {
 void solve_side_by_side(const std::vector<Job*>& jobs, ComplianceModel model, const ComplianceBuild& build) {
   JointProgress progress(jobs, build.progress);
   const double limit = build.memory_limit / static_cast<double>(std::min<std::size_t>(jobs.size(), static_cast<std::size_t>(build.abreast)));
-  const auto solve = [&](std::size_t i) {
+  const auto solve = [&](std::size_t turn) {
     const Stopwatch clock;
+    // As a rule the wheel takes longer. It goes to the thread that waits for the others at the end; the thread that ends first then shares its panels.
+    const std::size_t i = jobs.size() - 1 - turn;
     Job& job = *jobs[i];
     const auto report = [&](int done, int total) { progress.at(i, done, total); };
     job.run = with_gear_names(model, job.member(), [&] { return solve_influence_table(job.task, limit, report, build.for_each); });
