@@ -14,10 +14,18 @@ namespace {
 /// [-].
 constexpr double anchor_slack = 1e-3;
 
+/// The problem whose analyses have whatever any of the objectives needs.
+DesignProblem with_all(const DesignProblem& problem, const std::vector<Objective>& objectives) {
+  std::vector<ScalarisedObjective> scalarisation;
+  for (const Objective& objective : objectives) scalarisation.push_back({objective});
+  return problem.judged_by(objectives.front(), problem.task().objective_bounds, scalarisation);
+}
+
 class FrontTracing {
  public:
-  FrontTracing(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options)
-      : problem_(problem), points_(points), options_(options.solver), starts_(options.starts) {
+  FrontTracing(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options,
+               const std::vector<Eigen::VectorXd>& known)
+      : problem_(problem), valued_(with_all(problem, objectives)), points_(points), options_(options.solver), starts_(options.starts), known_(known) {
     front_.objectives = objectives;
   }
 
@@ -25,7 +33,7 @@ class FrontTracing {
     const std::vector<ParetoPoint> bests = best_of_each_objective();
     for (std::size_t g = 0; g < bests.size() && !is_spent(); ++g) add_anchor(g, bests);
     if (front_.points.size() == front_.objectives.size()) {
-      choose_ranges();
+      front_.choose_ranges();
       if (front_.objectives.size() == 2) {
         halve_gaps();
         space_evenly();
@@ -33,7 +41,7 @@ class FrontTracing {
         fill_triangle();
       }
     }
-    mark_dominated();
+    front_.mark_dominated();
     front_.seconds = clock_.seconds();
     return std::move(front_);
   }
@@ -70,7 +78,7 @@ class FrontTracing {
 
   ParetoPoint point(const LocalRun& run) const {
     ParetoPoint point{run.x, {}, run.status, run.constraint_violation};
-    DesignProblem problem = problem_;
+    DesignProblem problem = valued_;
     const DesignAnalysis& analysis = problem.analyse(run.x, false);
     for (const Objective& objective : front_.objectives) point.values.push_back(problem.value(objective, analysis));
     return point;
@@ -78,7 +86,7 @@ class FrontTracing {
 
   DesignProblem alone(std::size_t g) const { return problem_.judged_by(front_.objectives[g], problem_.task().objective_bounds); }
 
-  /// The best design of each objective, from all starts and from the best of every other objective. Otherwise a local
+  /// The best design of each objective, from all starts, from what is known and from the best of every other objective. Otherwise a local
   /// optimum could be an end that the front never reaches, because another objective's best lies lower. Empty where the
   /// budget is spent before each has one.
   std::vector<ParetoPoint> best_of_each_objective() {
@@ -91,10 +99,14 @@ class FrontTracing {
       bests.push_back(runs[best_run(runs)]);
     }
     for (std::size_t g = 0; g < objectives; ++g) {
+      std::vector<Eigen::VectorXd> starts = known_;
       for (std::size_t k = 0; k < objectives; ++k) {
-        if (k == g || is_out_of_budget()) continue;
+        if (k != g) starts.push_back(bests[k].x);
+      }
+      for (const Eigen::VectorXd& start : starts) {
+        if (is_out_of_budget()) break;
         DesignProblem problem = alone(g);
-        problem.set_start(bests[k].x);
+        problem.set_start(start);
         const LocalRun run = search(problem);
         if (best_run({bests[g], run}) == 1) bests[g] = run;
       }
@@ -126,23 +138,8 @@ class FrontTracing {
     front_.points.push_back(anchor);
   }
 
-  void choose_ranges() {
-    for (std::size_t k = 0; k < front_.objectives.size(); ++k) {
-      const auto by = [k](const ParetoPoint& a, const ParetoPoint& b) { return a.values[k] < b.values[k]; };
-      front_.ideal.push_back(std::min_element(front_.points.begin(), front_.points.end(), by)->values[k]);
-      front_.worst.push_back(std::max_element(front_.points.begin(), front_.points.end(), by)->values[k]);
-    }
-  }
-
-  double range(std::size_t k) const { return std::max(front_.worst[k] - front_.ideal[k], 1e-9 * std::abs(front_.worst[k]) + 1e-300); }
-
-  Eigen::VectorXd normalised(const ParetoPoint& point) const {
-    Eigen::VectorXd f(static_cast<Eigen::Index>(point.values.size()));
-    for (std::size_t k = 0; k < point.values.size(); ++k) {
-      f[static_cast<Eigen::Index>(k)] = (point.values[k] - front_.ideal[k]) / range(k);
-    }
-    return f;
-  }
+  double range(std::size_t k) const { return front_.range(k); }
+  Eigen::VectorXd normalised(const ParetoPoint& point) const { return front_.normalised(point); }
 
   /// The compromise seen from a reference point.
   ParetoPoint compromise(const Eigen::VectorXd& reference) {
@@ -230,25 +227,66 @@ class FrontTracing {
     }
   }
 
-  void mark_dominated() {
-    if (front_.ideal.empty()) return;
-    for (ParetoPoint& a : front_.points) {
-      a.dominated = std::any_of(front_.points.begin(), front_.points.end(), [&](const ParetoPoint& b) {
-        const Eigen::VectorXd ahead = normalised(a) - normalised(b);
-        return ahead.minCoeff() >= 0.0 && ahead.maxCoeff() > ParetoFront::same;
-      });
-    }
-  }
-
   const DesignProblem& problem_;
+  const DesignProblem valued_;
   const int points_;
   const SolverOptions& options_;
   const int starts_;
+  const std::vector<Eigen::VectorXd>& known_;
   const Stopwatch clock_;
   ParetoFront front_;
 };
 
 }  // namespace
+
+void ParetoFront::choose_ranges() {
+  ideal.clear();
+  worst.clear();
+  std::vector<const ParetoPoint*> anchors;  // of two objectives the ends, of three the first three
+  for (std::size_t g = 0; g < objectives.size(); ++g) anchors.push_back(&points[objectives.size() == 2 && g == 1 ? points.size() - 1 : g]);
+  for (std::size_t k = 0; k < objectives.size(); ++k) {
+    const auto by = [k](const ParetoPoint* a, const ParetoPoint* b) { return a->values[k] < b->values[k]; };
+    ideal.push_back((*std::ranges::min_element(anchors, by))->values[k]);
+    worst.push_back((*std::ranges::max_element(anchors, by))->values[k]);
+  }
+}
+
+double ParetoFront::range(std::size_t k) const { return std::max(worst[k] - ideal[k], 1e-9 * std::abs(worst[k]) + 1e-300); }
+
+Eigen::VectorXd ParetoFront::normalised(const ParetoPoint& point) const {
+  Eigen::VectorXd f(static_cast<Eigen::Index>(point.values.size()));
+  for (std::size_t k = 0; k < point.values.size(); ++k) f[static_cast<Eigen::Index>(k)] = (point.values[k] - ideal[k]) / range(k);
+  return f;
+}
+
+void ParetoFront::mark_dominated() {
+  if (ideal.empty()) return;
+  const auto keeps = [](const ParetoPoint& point) { return point.constraint_violation <= DesignLog::tolerance; };
+  for (ParetoPoint& a : points) {
+    a.dominated = std::ranges::any_of(points, [&](const ParetoPoint& b) {
+      if (keeps(a) && !keeps(b)) return false;
+      const Eigen::VectorXd ahead = normalised(a) - normalised(b);
+      return ahead.minCoeff() >= 0.0 && ahead.maxCoeff() > same;
+    });
+  }
+}
+
+void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, ParetoFront& front) {
+  DesignProblem valued = with_all(problem, front.objectives);
+  for (ParetoPoint& point : front.points) {
+    const DesignAnalysis& analysis = valued.analyse(point.x, false);
+    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) continue;
+    const std::vector<ResolvedCycle> cycles = resolve(analysis);
+    point.values = resolved_values(valued, front.objectives, analysis, cycles);
+    DesignReport report = report_design(problem, analysis);
+    resolve_report(problem, cycles, report);
+    for (std::size_t c = 0; c < problem.task().constraints.size(); ++c)
+      point.constraint_violation = std::max(point.constraint_violation, problem.task().constraints[c].excess(report.constraint_values[c]));
+  }
+  if (front.ideal.empty()) return;
+  front.choose_ranges();
+  front.mark_dominated();
+}
 
 double ParetoFront::unevenness() const {
   if (objectives.size() != 2 || points.size() < 3 || ideal.empty()) return not_given;
@@ -262,7 +300,8 @@ double ParetoFront::unevenness() const {
   return longest / shortest;
 }
 
-ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options) {
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options,
+                        const std::vector<Eigen::VectorXd>& known) {
   options.solver.validate();
   if (objectives.size() < 2 || objectives.size() > 3)
     throw InvalidInput("optimise.pareto.objectives", std::to_string(objectives.size()), "two or three");
@@ -273,7 +312,7 @@ ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objectiv
   if (!uses_gradients(solver) || !accepts_constraints(solver)) {
     throw InvalidInput("optimise.solver", solver, "a solver with gradients and constraints for a Pareto front, such as ipopt");
   }
-  return FrontTracing(problem, objectives, points, options).trace();
+  return FrontTracing(problem, objectives, points, options, known).trace();
 }
 
 }  // namespace flankwright

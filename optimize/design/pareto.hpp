@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "optimize/design/between_positions.hpp"
 #include "optimize/design/design_optimiser.hpp"
 
 namespace flankwright {
@@ -19,8 +20,9 @@ struct ParetoPoint {
 /// Designs whose objectives cannot be improved without loss in another.
 struct ParetoFront {
   std::vector<Objective> objectives;
-  std::vector<ParetoPoint> points;   ///< of two objectives along the front, from the best of the first to the best of the second
-  std::vector<double> ideal, worst;  ///< per objective over the points where each one alone is best, outside units
+  std::vector<ParetoPoint> points;  ///< of two objectives along the front, from the best of the first to the best of the second
+  std::vector<double> ideal,
+      worst;  ///< per objective over the points where each one alone is best, outside units; empty where the budget left one out
   int evaluations{0}, failures{0};
   double seconds{not_given};
   std::string message;  ///< the reason for fewer points than wanted; empty without
@@ -29,9 +31,18 @@ struct ParetoFront {
   /// Longest over shortest distance between neighbours of a front of two objectives, scaled to their ranges; 1 is even;
   /// NaN below 3 points.
   double unevenness() const;
+
+  /// Sets ideal and worst from the points where one objective alone is best.
+  void choose_ranges();
+  /// Worst less ideal, > 0.
+  double range(std::size_t objective) const;
+  /// A point's values, 0 at ideal and 1 at worst.
+  Eigen::VectorXd normalised(const ParetoPoint& point) const;
+  /// Sets ParetoPoint::dominated. A point beyond a limit dominates none that keeps it.
+  void mark_dominated();
 };
 
-/// Traces a front: each objective alone first, from options.starts and from the others' best, every other held to the
+/// Traces a front: each objective alone first, from options.starts, from the known designs and from the others' best, every other held to the
 /// least value that allows it; then compromises
 ///
 ///     minimise tau   subject to   (goal_i(x) - ideal_i) / range_i - a_i <= tau         [Pascoletti, Serafini, JOTA 42 (1984)]
@@ -43,10 +54,16 @@ struct ParetoFront {
 /// @param objectives    two or three
 /// @param points   >= number of objectives; for three the largest triangular number within it
 /// @param options  a solver that takes gradients and constraints; its budget is that of the whole front
+/// @param known    scaled designs from which each objective is sought as well, such as an optimum found before
 /// @throws InvalidInput for another number of objectives, or an unsuitable solver
-ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options);
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options,
+                        const std::vector<Eigen::VectorXd>& known = {});
 inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const SolverOptions& options) {
   return trace_front(problem, objectives, points, DesignOptions{options});
 }
+
+/// Gives the points of a front their values with the extremes between positions, as the designs before and after an optimisation have them, and judges anew which
+/// are dominated and which exceed a limit. The designs stay where they are.
+void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, ParetoFront& front);
 
 }  // namespace flankwright

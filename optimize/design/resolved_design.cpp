@@ -14,17 +14,17 @@ struct Measures {
   std::vector<double> values, errors;  ///< per scene, outside units
 };
 
-/// A report with the resolved cycles of its analysis.
+/// An analysis with its resolved cycles.
 struct Resolving {
   const DesignProblem& problem;
-  const DesignReport& report;
+  const DesignAnalysis& analysis;
   const std::vector<ResolvedCycle>& cycles;
   const FurtherError& further_error;
 
   double further(const ObjectiveTerm& term, int scene) const { return further_error ? further_error(term, scene) : not_given; }
 
   ResolvedValue value_in(const ObjectiveTerm& term, int scene) const {
-    ResolvedValue value = resolved_value(term, problem.scene(report.analysis, scene), cycles[static_cast<std::size_t>(scene)]);
+    ResolvedValue value = resolved_value(term, problem.scene(analysis, scene), cycles[static_cast<std::size_t>(scene)]);
     if (std::isnan(value.error)) value.error = further(term, scene);
     return value;
   }
@@ -32,7 +32,7 @@ struct Resolving {
   Measures measures_of(const Objective& minimised) const {
     Measures measures;
     const bool over_spectrum = minimised.over_spectrum();  // sums over load cases, of the positions' own stresses
-    if (over_spectrum) measures.values = problem.scene_measures(minimised, report.analysis);
+    if (over_spectrum) measures.values = problem.scene_measures(minimised, analysis);
     for (int s = 0; s < problem.scenes(); ++s) {
       double value = 0.0, error = 0.0;
       for (const ObjectiveTerm& term : minimised.terms) {
@@ -67,7 +67,7 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
                             const FurtherError& further_error) {
   const DesignTask& task = problem.task();
   const std::vector<double> weights = problem.scene_weights();
-  const Resolving resolving{problem, report, cycles, further_error};
+  const Resolving resolving{problem, report.analysis, cycles, further_error};
   DesignErrors errors;
   Measures measures = resolving.measures_of(task.combined_objective());
   const ResolvedValue objective = value_of(task.combined_objective(), measures, weights);
@@ -93,6 +93,16 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
     errors.later_objectives.push_back(later.error);
   }
   return errors;
+}
+
+std::vector<double> resolved_values(const DesignProblem& problem, const std::vector<Objective>& objectives, const DesignAnalysis& analysis,
+                                    const std::vector<ResolvedCycle>& cycles) {
+  const std::vector<double> weights = problem.scene_weights();
+  const FurtherError none;
+  const Resolving resolving{problem, analysis, cycles, none};
+  std::vector<double> values;
+  for (const Objective& objective : objectives) values.push_back(value_of(objective, resolving.measures_of(objective), weights).value);
+  return values;
 }
 
 }  // namespace flankwright

@@ -51,19 +51,28 @@ std::string study_text(const Json& given) {
 
 }  // namespace
 
+std::vector<Override> final_modifications(const Json& results) {
+  std::vector<Override> values;
+  if (!results.contains("optimise")) return values;
+  const Json& after = results.at("optimise").at("after");
+  for (const char* which : {"variables", "tied"}) {
+    if (!after.contains(which)) continue;
+    for (const auto& [key, value] : after.at(which).items()) values.push_back({key, value.dump()});
+  }
+  return values;
+}
+
 Study stored_study(const Json& results, const std::string& file, StoredFlanks flanks) {
   std::string text, name;
-  std::vector<Override> variables;
+  std::vector<Override> modifications;
   try {
     text = study_text(results.at("given"));
     name = results.at("file");
-    if (flanks == StoredFlanks::Final && results.contains("optimise")) {
-      for (const auto& [key, value] : results.at("optimise").at("after").at("variables").items()) variables.push_back({key, value.dump()});
-    }
+    if (flanks == StoredFlanks::Final) modifications = final_modifications(results);
   } catch (const std::exception&) {
     throw InvalidInput(file, damaged_results, results_of_a_run);
   }
-  return parse_study(text, name, variables);
+  return parse_study(text, name, modifications);
 }
 
 }  // namespace flankwright::studies

@@ -1,14 +1,20 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "studies/base/json_format.hpp"
 #include "studies/study/study.hpp"
+#include "studies/study_file/override.hpp"
 
 namespace flankwright::studies {
 
 /// Which flanks of a results folder: those of the study file, or what an optimisation made of them.
 enum class StoredFlanks { Final, Given };
+
+/// What an optimisation made of the modifications: its variables and those tied to them, in the units of their keys; nothing of another task.
+/// @throws nlohmann::json::exception  where the document is none of this program's
+std::vector<Override> final_modifications(const Json& results);
 
 /// Pair, flanks, material, torques and scenes of a study that has run, from `given` of its results.json; Final: with the variables
 /// that an optimisation ended at. Task, fidelity, errors of teeth and shafts are left out, so that nothing is needed but the grids.

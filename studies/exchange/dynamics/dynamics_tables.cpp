@@ -11,6 +11,7 @@
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/version.hpp"
+#include "studies/study_file/stored_study.hpp"
 #include "studies/study_file/study_file.hpp"
 
 namespace flankwright::studies {
@@ -27,9 +28,7 @@ Study study_to_analyse(const Json& results) {
   const Json& used = results.at("used");
   std::vector<Override> overrides{
       {"task", "analyse"}, {"analyse.gradients", "[\"load.torque\"]"}, {"fidelity.effect_sizes", "off"}, {"cycle.peaks", "sampled"}};
-  if (results.contains("optimise")) {
-    for (const auto& [key, value] : results["optimise"]["after"]["variables"].items()) overrides.push_back({key, value.dump()});
-  }
+  for (Override& modification : final_modifications(results)) overrides.push_back(std::move(modification));
   Study study = parse_study(results.at("study").get<std::string>(), results.at("file").get<std::string>(), overrides);
   study.expect.clear();
   study.fidelity.accuracy.reset();
