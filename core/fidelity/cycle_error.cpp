@@ -13,7 +13,7 @@ namespace {
 
 // Shares of a difference that are called an error, see estimate_errors().
 constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_harmonics = 1.0 / 2.0, of_peaks = 1.0, of_root_stress = 1.0 / 2.0,
-                 of_positions = 1.0 / 3.0;
+                 of_positions = 1.0 / 3.0, of_positions_beside_jump = 1.0;
 /// Share of the estimated error of the finer cycle that is added to a change, see point_errors_beside_finer().
 constexpr double of_order_one = 2.0;
 /// Positions whose peak is within this fraction of the cycle's count for the error of the peak.
@@ -87,12 +87,13 @@ double rms_about_mean(const std::vector<double>& d) {
 /// By points, of the mean. @param d  fine less coarse at each position of the coarse cycle
 double mean_error_by_points(const std::vector<double>& d) { return of_mean * std::abs(mean_of(d)) + of_shape * rms_about_mean(d); }
 
-double mean_error_by_positions(const std::vector<double>& samples) {
+/// @param share  of what leaving out every second position changes
+double mean_error_by_positions(const std::vector<double>& samples, double share = of_positions) {
   const bool halved = samples.size() % 2 == 0 && samples.size() >= 8;
   const double mean_of_half = mean_of(halved ? every(samples, 2) : samples);
   const int highest_order = static_cast<int>(samples.size() - 1) / 2;
   const double highest = highest_order > 0 ? std::abs(harmonic_phasor(samples, highest_order)) : 0.0;
-  return of_positions * std::max(std::abs(mean_of(samples) - mean_of_half), highest);
+  return share * std::max(std::abs(mean_of(samples) - mean_of_half), highest);
 }
 
 double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
@@ -160,12 +161,13 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
   const std::vector<double> te = curve(fine, te_of);
   const bool halved = te.size() % 2 == 0 && te.size() >= 8;
   const std::vector<double> half = halved ? every(te, 2) : te;
-  errors.te_mean = mean_error_by_positions(te);
+  const double share = fine.closes ? of_positions : of_positions_beside_jump;
+  errors.te_mean = mean_error_by_positions(te, share);
   for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
     // Beyond what half the positions resolve, the aliases of the orders that are.
     const bool resolved = 2 * k < half.size();
     const int order = static_cast<int>(k);
-    errors.te_harmonics.push_back(of_positions *
+    errors.te_harmonics.push_back(share *
                                   (resolved ? std::abs(harmonic_phasor(te, order) - harmonic_phasor(half, order)) : summary.te_harmonics[k - 1]));
   }
   const auto unseen = [&](Figure figure, const std::vector<double>& samples) {
@@ -182,7 +184,7 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
     errors.edge_stress = extremes != nullptr ? extremes->unseen_edge_stress : unseen_rise(curve(fine, edge_stress_of));
     errors.tip_edge_share = extremes != nullptr ? extremes->unseen_edge_share : unseen_rise(curve(fine, edge_share_of));
   }
-  errors.mean_stiffness = stiffness_error(mean_error_by_positions(curve(fine, approach_of)), fine, summary);
+  errors.mean_stiffness = stiffness_error(mean_error_by_positions(curve(fine, approach_of), share), fine, summary);
   return errors;
 }
 

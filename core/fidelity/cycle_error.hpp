@@ -39,7 +39,8 @@ struct CyclesBetween {
 ///     by more: kinks of a linear relief wander between points. Both cycles are compared at the extremes between the positions as well, where they
 ///     were solved there: a contact on a tip edge may be shorter than the spacing of the positions.
 /// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second
-///   position changes, of the mean at least a third of the highest order that they resolve, which does not depend on where positions meet the curve. Extremes are off by CycleExtremes::unseen after a search, else by unseen_rise().
+///   position changes, of the mean at least a third of the highest order that they resolve, which does not depend on where positions meet the curve. Where teeth differ (LoadedCycle::closes) the
+///   curve jumps from one pitch to the next, which is order one: all of the change instead of a third. Extremes are off by CycleExtremes::unseen after a search, else by unseen_rise().
 ///
 /// @param fine      evenly spaced, with its summary
 /// @param coarse    at coarse_phases() of it, half the intervals

@@ -21,6 +21,11 @@ ToothError tooth_error(const ManufacturingError& error, int tooth) {
 
 const DeviationField* tooth_topography(const ManufacturingError& error, int tooth) { return of_tooth(error.topographies, tooth).get(); }
 
+bool teeth_differ(const ManufacturingError& error) {
+  return error.pitch_step != 0.0 || !error.cumulative_pitch.empty() || !error.helix_slopes.empty() || !error.profile_slopes.empty() ||
+         !error.twists.empty() || !error.topographies.empty();
+}
+
 double pitch_deviation(const ManufacturingError& error, int tooth) {
   return error.cumulative_pitch.empty() ? error.pitch_step * tooth : of_tooth(error.cumulative_pitch, tooth);
 }

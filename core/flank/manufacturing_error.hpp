@@ -35,6 +35,9 @@ ToothError tooth_error(const ManufacturingError& error, int tooth);
 /// The measured deviation of one tooth's flank; null where there is none.
 const DeviationField* tooth_topography(const ManufacturingError& error, int tooth);
 
+/// Whether the gear's teeth differ in place or shape. A mesh cycle then does not end where it began.
+bool teeth_differ(const ManufacturingError& error);
+
 /// Cumulative pitch deviation of tooth k [mm], see ManufacturingError.
 double pitch_deviation(const ManufacturingError& error, int tooth);
 

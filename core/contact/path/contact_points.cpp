@@ -57,13 +57,13 @@ std::vector<LineInterval> graded_intervals(const PathOfContact& path, int n, dou
   const auto z_at = [&](double phase) { return std::clamp((phase - path.phase_at(line_phase, 0.0)) / path.slope, face_start, face_end); };
   // Where edges reach further than the extension, the mate's tip takes over from them there.
   std::array<double, 6> cuts{z_at(0.0),
-                             z_at(PathOfContact::extension),
+                             z_at(path.edges.before),
                              z_at(path.before),
                              z_at(path.path_end()),
-                             z_at(path.region_length - PathOfContact::extension),
+                             z_at(path.region_length - path.edges.beyond),
                              z_at(path.region_length)};
-  if (path.before == PathOfContact::extension) cuts[1] = cuts[0];
-  if (path.beyond == PathOfContact::extension) cuts[4] = cuts[5];
+  if (path.before == path.edges.before) cuts[1] = cuts[0];
+  if (path.beyond == path.edges.beyond) cuts[4] = cuts[5];
   std::sort(cuts.begin(), cuts.end());  // either sense of the lines
   const int extended = std::max(6, n / 2 + 3);
   const auto from_its_end = [](double t) { return t * (2.0 - t); };

@@ -6,8 +6,9 @@ namespace flankwright {
 
 PathOfContact::PathOfContact(const GearPair& pair)
     : base_pitch(pair.transverse_base_pitch),
-      before(extension + edge_reach(pair).before),
-      beyond(extension + edge_reach(pair).beyond),
+      edges(edge_extension(pair)),
+      before(edges.before + edge_reach(pair).before),
+      beyond(edges.beyond + edge_reach(pair).beyond),
       roll_at_start(pair.path_start - before * base_pitch),
       region_length(before + pair.transverse_contact_ratio + beyond),
       slope(pair.contact_line_sense() * std::tan(pair.base_helix_angle) / base_pitch),

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/contact/path/edge_extension.hpp"
 #include "core/gear/gear_pair.hpp"
 
 namespace flankwright {
@@ -10,15 +11,16 @@ namespace flankwright {
 ///
 /// The phase of a point of a contact line is its distance along the line of action from A0, in transverse base pitches. A0 lies
 /// 0.35 base pitches before the theoretical start A, B0 as much after the theoretical end E: the extended region in which
-/// deflection and errors may bring tip edges into contact (app. 2A). Departure: where a flank's lower end is an edge that reaches
-/// further (EdgeReach), A0 or B0 lies as much further out. The phase of a *line* is that of its leading end.
+/// deflection and errors may bring tip edges into contact (app. 2A). Departures: with many teeth tip edges stay near the mate for longer (edge_extension()), and where
+/// a flank's lower end is an edge that reaches further (EdgeReach), A0 or B0 lies as much further out. The phase of a *line* is that of its leading end.
 struct PathOfContact {
-  static constexpr double extension = 0.35;  ///< [base pitches], Haddad 1991, section 2.3
+  static constexpr double extension = 0.35;  ///< the least [base pitches], Haddad 1991, section 2.3
 
   explicit PathOfContact(const GearPair& pair);
 
   double base_pitch;      ///< p_bt [mm]
-  double before, beyond;  ///< A0 A and E B0: the extension and what edges reach [base pitches]
+  EdgeExtension edges;    ///< how far out tip edges may carry load
+  double before, beyond;  ///< A0 A and E B0: the extension and what lower edges reach [base pitches]
   double roll_at_start;   ///< pinion roll length at A0 [mm]; may be negative
   double region_length;   ///< A0 B0 [base pitches]
   double slope;           ///< d(phase)/dz, signed with the sense of the contact lines [1/mm]

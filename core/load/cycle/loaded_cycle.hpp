@@ -42,6 +42,7 @@ struct LoadedCycle {
   Eigen::RowVectorXd force_derivative;   ///< dF/dp, 1 x m
   Eigen::RowVectorXd face_width_change;  ///< relative derivative of MeshModel::face_width, 1 x m
   int failures{0};                       ///< positions without a usable load distribution
+  bool closes{true};                     ///< the next pitch is as this one; false: teeth differ, teeth_differ()
 
   /// f_t of every position [mm]; NaN where a position failed.
   Eigen::VectorXd transmission_error() const;

@@ -144,6 +144,7 @@ LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, 
                     const std::vector<MeshParameter>& parameters, const LoadOptions& options, const LoadedCycle* earlier) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
+  cycle.closes = !teeth_differ(condition.error.pinion) && !teeth_differ(condition.error.wheel);
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);

@@ -56,6 +56,20 @@ TEST_CASE("The stated error of a figure holds beside a cycle four times finer bo
   CHECK(largest(error_shares(fine.resolved.errors, fine.figures)) < largest(stated));
 }
 
+TEST_CASE("Where a pitch deviation lets the curve jump at the end of a pitch, the errors of mean and harmonics are of order one",
+          "[core][load][cycle-error]") {
+  const GearPair gears = mesh_cases::pair(25, 50, 0, 3, 30);
+  FlankCondition condition = mesh_cases::worked_condition();
+  condition.error.wheel.pitch_step = 4.0 * units::um;
+  const double torque = mesh_cases::torque_for(gears, GENERATE(40.0, 200.0));
+  const ResolvedCycle coarse = judge(gears, condition, torque, 8, 32).resolved, fine = judge(gears, condition, torque, 16, 256).resolved;
+  CHECK(std::abs(coarse.summary.te_mean - fine.summary.te_mean) <= coarse.errors.te_mean);
+  for (std::size_t k = 0; k < 4; ++k) {
+    CAPTURE(k, coarse.summary.te_harmonics[k], fine.summary.te_harmonics[k]);
+    CHECK(std::abs(coarse.summary.te_harmonics[k] - fine.summary.te_harmonics[k]) <= coarse.errors.te_harmonics[k]);
+  }
+}
+
 TEST_CASE("The error of a mean and of a peak covers what a kinked curve's samples leave out", "[core][load][cycle-error]") {
   // 1 + a |sin(pi (x - s))| has a kink at s and the mean 1 + 2 a/pi; with half the intervals every reading is higher by `points`, as order one would have it
   // another half of that is missing.

@@ -24,3 +24,4 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/shafts_under_load_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/surface_cycle_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/surface_outputs_test.cpp)
+list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/many_teeth_test.cpp)
