@@ -239,11 +239,13 @@ class FrontTracing {
 
 }  // namespace
 
+ParetoPoint& ParetoFront::anchor(std::size_t objective) { return objectives.size() == 2 && objective == 1 ? points.back() : points[objective]; }
+
 void ParetoFront::choose_ranges() {
   ideal.clear();
   worst.clear();
-  std::vector<const ParetoPoint*> anchors;  // of two objectives the ends, of three the first three
-  for (std::size_t g = 0; g < objectives.size(); ++g) anchors.push_back(&points[objectives.size() == 2 && g == 1 ? points.size() - 1 : g]);
+  std::vector<const ParetoPoint*> anchors;
+  for (std::size_t g = 0; g < objectives.size(); ++g) anchors.push_back(&anchor(g));
   for (std::size_t k = 0; k < objectives.size(); ++k) {
     const auto by = [k](const ParetoPoint* a, const ParetoPoint* b) { return a->values[k] < b->values[k]; };
     ideal.push_back((*std::ranges::min_element(anchors, by))->values[k]);
@@ -271,19 +273,29 @@ void ParetoFront::mark_dominated() {
   }
 }
 
-void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, ParetoFront& front) {
+void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, const std::vector<Eigen::VectorXd>& known, ParetoFront& front) {
   DesignProblem valued = with_all(problem, front.objectives);
-  for (ParetoPoint& point : front.points) {
+  const auto shown = [&](ParetoPoint point) {
     const DesignAnalysis& analysis = valued.analyse(point.x, false);
-    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) continue;
+    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return point;
     const std::vector<ResolvedCycle> cycles = resolve(analysis);
     point.values = resolved_values(valued, front.objectives, analysis, cycles);
     DesignReport report = report_design(problem, analysis);
     resolve_report(problem, cycles, report);
     for (std::size_t c = 0; c < problem.task().constraints.size(); ++c)
       point.constraint_violation = std::max(point.constraint_violation, problem.task().constraints[c].excess(report.constraint_values[c]));
-  }
+    return point;
+  };
+  for (ParetoPoint& point : front.points) point = shown(std::move(point));
   if (front.ideal.empty()) return;
+  for (const Eigen::VectorXd& x : known) {
+    const ParetoPoint point = shown({x, {}, SolverStatus::Converged, 0.0});
+    if (point.values.empty()) continue;
+    for (std::size_t g = 0; g < front.objectives.size(); ++g) {
+      ParetoPoint& best = front.anchor(g);
+      if (point.constraint_violation <= std::max(best.constraint_violation, DesignLog::tolerance) && point.values[g] < best.values[g]) best = point;
+    }
+  }
   front.choose_ranges();
   front.mark_dominated();
 }

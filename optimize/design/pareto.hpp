@@ -32,6 +32,8 @@ struct ParetoFront {
   /// NaN below 3 points.
   double unevenness() const;
 
+  /// The point where an objective alone is best: of two the ends, of three one of the first three.
+  ParetoPoint& anchor(std::size_t objective);
   /// Sets ideal and worst from the points where one objective alone is best.
   void choose_ranges();
   /// Worst less ideal, > 0.
@@ -63,7 +65,8 @@ inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<O
 }
 
 /// Gives the points of a front their values with the extremes between positions, as the designs before and after an optimisation have them, and judges anew which
-/// are dominated and which exceed a limit. The designs stay where they are.
-void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, ParetoFront& front);
+/// are dominated and which exceed a limit. The designs stay where they are, but a known one takes the place of the best of an objective that it is below.
+/// @param known  scaled designs, as for trace_front()
+void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, const std::vector<Eigen::VectorXd>& known, ParetoFront& front);
 
 }  // namespace flankwright

@@ -58,12 +58,11 @@ class OptimiseRun {
     found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
     if (!study.table<OptimiseTable>().pareto_objectives.empty()) {
       problem.set_start({});  // the file's own values again
-      const Eigen::VectorXd optimum = problem.scaled_design(found_.design.after.variables).cwiseMax(0.0).cwiseMin(1.0);
-      found_.front =
-          trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, {optimum});
+      const std::vector<Eigen::VectorXd> known{problem.scaled_design(found_.design.after.variables).cwiseMax(0.0).cwiseMin(1.0)};
+      found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, known);
       if (seeks_extremes(study))
         resolve_front(
-            problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, *found_.front);
+            problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, known, *found_.front);
     }
     const DesignResult& design = found_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
