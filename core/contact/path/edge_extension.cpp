@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/root.hpp"
-#include "core/contact/path/path_of_contact.hpp"
 
 namespace flankwright {
 
@@ -27,7 +26,7 @@ double extension_of(const Gear& gear, const Gear& mate, const GearPair& pair) {
     const double gap = mate.base_radius * (seen_by_mate(at_end) + involute_at(psi) - involute_at(at_end) - seen_by_mate(psi)) + extension * pitch;
     return gap - largest_deflection * pair.data.normal_module;
   };
-  constexpr double least = PathOfContact::extension;
+  constexpr double least = EdgeExtension::least;
   const double near = beyond_deflection(least);
   if (near >= 0.0) return least;
   const double mate_tip = mate.tip_form_radius, cosine = (a * a + tip * tip - mate_tip * mate_tip) / (2.0 * a * tip);

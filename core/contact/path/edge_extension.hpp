@@ -6,11 +6,12 @@ namespace flankwright {
 
 /// How far outside the path of contact a tip edge may carry load [transverse base pitches].
 struct EdgeExtension {
-  double before{0.0};  ///< the wheel's edge, before the path's start A
-  double beyond{0.0};  ///< the pinion's, beyond the path's end E
+  static constexpr double least = 0.35;  ///< Haddad 1991, section 2.3
+  double before{0.0};                    ///< the wheel's edge, before the path's start A
+  double beyond{0.0};                    ///< the pinion's, beyond the path's end E
 };
 
-/// Haddad's 0.35 base pitches (PathOfContact::extension), or further where a tip edge of flanks without modification is still nearer to the mate there than
+/// EdgeExtension::least, or further where a tip edge of flanks without modification is still nearer to the mate there than
 /// 0.03 m_n. So much is the deflection of a single tooth pair at 400 N per mm of face and of m_n, with 14 N/(mm um), which no root carries. With many teeth an edge
 /// stays near: at 0.35 base pitches it is 0.055 m_n away with teeth 24 and 60, 0.009 m_n with teeth 100 and 150.
 ///

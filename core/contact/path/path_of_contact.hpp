@@ -14,7 +14,7 @@ namespace flankwright {
 /// deflection and errors may bring tip edges into contact (app. 2A). Departures: with many teeth tip edges stay near the mate for longer (edge_extension()), and where
 /// a flank's lower end is an edge that reaches further (EdgeReach), A0 or B0 lies as much further out. The phase of a *line* is that of its leading end.
 struct PathOfContact {
-  static constexpr double extension = 0.35;  ///< the least [base pitches], Haddad 1991, section 2.3
+  static constexpr double extension = EdgeExtension::least;
 
   explicit PathOfContact(const GearPair& pair);
 
