@@ -25,14 +25,13 @@ struct ContactMeshOptions {
   double layer_growth{1.6};   ///< of neighbouring layers
   double largest_layer{6.0};  ///< axial size at mid face
   double middle_layer{0};     ///< axial size at mid face where layers grow from there towards both ends; 0: they grow from the ends
-  double line_layer{
-      0};  ///< axial size at the ends of contact lines on the flanks, from where layers grow to both sides; 0: layers do not depend on lines
-  int body_rings{2};         ///< from below the teeth to the bore; of a gear on a web in rim and hub, four times as many in the web
-  int form_teeth{1};         ///< teeth with their form on either side of those that are loaded
-  double plain_element{20};  ///< widest element around the axis where nothing meshes [deg]
-  double edge_finest{0};     ///< delta where contact reaches a rounded tip edge; 0: the same as elsewhere
-  double edge_reach{0};      ///< distance of the contact from the edge below which it is taken to reach it
-  double edge_blend{0};      ///< distance over which elements grow from edge_finest to finest, the contact in their middle; 0: at edge_reach, at once
+  double line_layer{0};       ///< axial size beside the ends of contact lines on the flanks; 0: layers do not depend on lines
+  int body_rings{2};          ///< from below the teeth to the bore; of a gear on a web in rim and hub, four times as many in the web
+  int form_teeth{1};          ///< teeth with their form on either side of those that are loaded
+  double plain_element{20};   ///< widest element around the axis where nothing meshes [deg]
+  double edge_finest{0};      ///< delta where contact reaches a rounded tip edge; 0: the same as elsewhere
+  double edge_reach{0};       ///< distance of the contact from the edge below which it is taken to reach it
+  double edge_blend{0};  ///< distance over which elements grow from edge_finest to finest, the contact in their middle; 0: at edge_reach, at once
 };
 
 /// One gear of the scene at one mesh position.

@@ -19,7 +19,7 @@
 //
 //     flankwright_contact_truth FOLDER [MESH] [PART_OF_A_CASE'S_NAME] [FIRST_POSITION]
 //
-// MESH is coarse, medium, fine, ends, layers, lines or pressure, for root stress "roots" or "fine roots"; cases of edges have their own, and take "fine" for a finer one. Cycles begin at their FIRST_POSITION, counted from 0. FOLDER receives decks and CalculiX' output. Times are processor
+// MESH is coarse, medium, fine, ends, layers, lines, "line ends" or pressure, for root stress "roots" or "fine roots"; cases of edges have their own, and take "fine" for a finer one. Cycles begin at their FIRST_POSITION, counted from 0. FOLDER receives decks and CalculiX' output. Times are processor
 // seconds, of the program's own models wall seconds.
 
 using namespace flankwright;
