@@ -46,14 +46,14 @@ std::string pareto_csv(const ParetoFront& front, const DesignTask& task) {
   std::string csv;
   for (const Objective& objective : front.objectives) csv += csv_field(objective.name() + " [" + objective.unit() + "]") + ",";
   for (const DesignVariable& v : task.variables) csv += csv_field(v.path + " [" + v.unit() + "]") + ",";
-  csv += "status,dominated\n";
+  csv += "status,constraint_violation,dominated\n";
   for (const ParetoPoint& point : front.points) {
     for (double value : point.values) csv += fmt::format("{},", value);
     for (std::size_t i = 0; i < task.variables.size(); ++i) {
       const DesignVariable& v = task.variables[i];
       csv += fmt::format("{},", v.unscaled(point.x[static_cast<Eigen::Index>(i)]) * v.outside_factor());
     }
-    csv += fmt::format("{},{}\n", to_string(point.status), point.dominated ? "yes" : "no");
+    csv += fmt::format("{},{},{}\n", to_string(point.status), point.constraint_violation, point.dominated ? "yes" : "no");
   }
   return csv;
 }

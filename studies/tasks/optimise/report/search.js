@@ -27,11 +27,13 @@ function draw_front(plot, front, [across, up], height = 320) {
 
 function front_table(body, front, units) {
   const paths = Object.keys(record(record(list(front.points)[0]).variables));
+  const beyond = (point) => 100 * Math.max(0, point.constraint_violation), limited = list(front.points).map(record).some((point) => beyond(point) > 0);
   table(body, {
     title: "Compromises",
     columns: [...list(front.objectives).map(record).map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit) })),
-      ...paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]) }))],
-    rows: list(front.points).map(record).map((point) => [...point.values, ...paths.map((path) => settled(point.variables[path], units[path]))]),
+      ...paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]) })), ...(limited ? [{ label: "Beyond a limit by", unit: "%" }] : [])],
+    rows: list(front.points).map(record).map((point) => [...point.values, ...paths.map((path) => settled(point.variables[path], units[path])),
+      ...(limited ? [beyond(point)] : [])]),
   });
 }
 
