@@ -42,9 +42,10 @@ Study study_to_analyse(const Json& results) {
   return study;
 }
 
-bool has_single_teeth(const ManufacturingError& error) {
-  return !error.cumulative_pitch.empty() || !error.helix_slopes.empty() || !error.profile_slopes.empty() || !error.twists.empty() ||
-         !error.topographies.empty();
+/// Whether teeth have errors of their own, beside a pitch step that is the same everywhere.
+bool has_single_teeth(ManufacturingError error) {
+  error.pitch_step = 0.0;
+  return teeth_differ(error);
 }
 
 MeshExcitation::Position position_of(const LoadedPosition& position, const LoadedCycle& cycle, double face_width, double cos_base_helix) {

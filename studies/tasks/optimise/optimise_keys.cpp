@@ -55,12 +55,12 @@ std::vector<SchemaKey> optimise_keys() {
        .meaning = "of the front; of three objectives the largest of 3, 6, 10, 15 ... within it",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().pareto_points = static_cast<int>(v.integer); }},
       {.path = "optimise.max_evaluations", .kind = Integer, .range = {.low = 1, .high = 10'000'000}, .fallback = "2000",
-       .meaning = "then the search stops in order with the best so far; a finer look at that design follows",
+       .meaning = "then the search ends with the best design so far, which is still looked at finely",
        .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.table<OptimiseTable>().solver.max_evaluations = static_cast<int>(v.integer);
        }},
       {.path = "optimise.max_seconds", .quantity = Quantity::Time, .range = above_zero(1e8), .fallback = "(no limit)",
-       .meaning = "then the search stops in order with the best so far; a finer look at that design follows",
+       .meaning = "then the search ends with the best design so far, which is still looked at finely",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().solver.max_seconds = v.number; }},
       {.path = "optimise.seed", .kind = Integer, .range = {.low = 0, .high = 2147483647}, .fallback = "1",
        .meaning = "of the stochastic solvers and of the starts",

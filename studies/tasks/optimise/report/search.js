@@ -27,7 +27,9 @@ function draw_front(plot, front, [across, up], height = 320) {
 
 function front_table(body, front, units) {
   const paths = Object.keys(record(record(list(front.points)[0]).variables));
-  const beyond = (point) => 100 * Math.max(0, point.constraint_violation), limited = list(front.points).map(record).some((point) => beyond(point) > 0);
+  const tolerance = 1e-6;  // of the search: what exceeds a limit by less keeps it
+  const beyond = (point) => (point.constraint_violation > tolerance ? 100 * point.constraint_violation : 0);
+  const limited = list(front.points).map(record).some((point) => beyond(point) > 0);
   table(body, {
     title: "Compromises",
     columns: [...list(front.objectives).map(record).map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit) })),
