@@ -3,7 +3,7 @@
 /** The front over two of its objectives, by their indices in the list; with two objectives the points are joined. */
 function draw_front(plot, front, [across, up], height = 320) {
   const objectives = list(front.objectives).map(record), [first, second] = [objectives[across], objectives[up]];
-  const named = ({ name, unit }) => `${words(name)} [${pretty_unit(unit)}]`;
+  const named = ({ name, unit }) => (pretty_unit(unit) ? `${words(name)} [${pretty_unit(unit)}]` : words(name));
   const points = list(front.points).map(record)
     .map((point) => ({ x: point.values[across], y: point.values[up], dominated: point.dominated,
       note: objectives.length > 2 ? objectives.filter((_, i) => i !== across && i !== up)
