@@ -1,8 +1,13 @@
 #pragma once
 
-#include "core/fidelity/discretisation.hpp"
+#include <functional>
+
+#include "core/fidelity/resolved_cycle.hpp"
 
 namespace flankwright {
+
+/// The same mesh at any resolution.
+using MeshOfResolution = std::function<MeshModel(const MeshResolution&)>;
 
 /// Start and limits of an analysis that chooses its own resolution. Points follow the rule Graded.
 struct AutomaticResolution {

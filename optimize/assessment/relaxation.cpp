@@ -99,7 +99,7 @@ Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modificat
   const Optimality optimality = first_order_optimality(by_excess, x);
   PerGear<Modification> with_extents = design;
   const std::vector<UnvariedAmount> unvaried = unvaried_amounts(problem.task(), with_extents);
-  std::vector<AssessedParameter> parameters = assessed_parameters(by_excess.task());
+  std::vector<AssessedParameter> parameters = variable_parameters(by_excess.task());
   const auto assessed = static_cast<Eigen::Index>(parameters.size());
   for (const UnvariedAmount& amount : unvaried) parameters.push_back(amount.parameter);
   const LocalModel model(by_excess, with_extents, parameters, optimality.active);

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "core/base/stopwatch.hpp"
-#include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/analysis/fit_error.hpp"
 
 namespace flankwright::studies {
@@ -44,16 +42,12 @@ PerFigure added(const PerFigure& a, const PerFigure& b) {
   return sum;
 }
 
-void raise(PerFigure& worst, const PerFigure& other) {
-  for (std::size_t i = 0; i < worst.size(); ++i) worst[i] = std::max(worst[i], other[i]);
-}
-
 /// Difference of two models, worst over the load cases; infinite where one of them did not converge.
 PerFigure differences(const LevelResult& model, const LevelResult& other) {
   PerFigure worst{};
   if (!model.usable() || !other.usable()) worst.fill(std::numeric_limits<double>::infinity());
   for (std::size_t s = 0; model.usable() && other.usable() && s < model.scenes.size(); ++s) {
-    raise(worst, figure_differences(model.scenes[s], other.scenes[s]));
+    worst = larger_of(worst, figure_differences(model.scenes[s], other.scenes[s]));
   }
   return with_safety(worst);
 }
@@ -61,7 +55,7 @@ PerFigure differences(const LevelResult& model, const LevelResult& other) {
 PerFigure fit_errors(const LevelResult& fitted) {
   PerFigure worst{};
   if (!fitted.usable()) worst.fill(std::numeric_limits<double>::infinity());
-  for (const CycleFigures& figures : fitted.scenes) raise(worst, fit_error(figures));
+  for (const CycleFigures& figures : fitted.scenes) worst = larger_of(worst, fit_error(figures));
   return worst;
 }
 
@@ -99,46 +93,6 @@ void choose_gap(LevelRunner& runner, FidelityChoice& choice) {
   choice.fidelity.gap = plane_does ? GapModel::PlaneOfAction : GapModel::WholeSurface;
 }
 
-void choose_resolution(LevelRunner& runner, FidelityChoice& choice, const ProgressReport& progress) {
-  const std::vector<DesignScene>& scenes = runner.subject().scenes;
-  DiscretisationSearch search;
-  search.accuracy = choice.accuracy;
-  search.spent = root_sum_square(choice.compliance_error, choice.gap_error);
-  search.choose_intervals = !choice.quadrature_given;
-  search.choose_positions = !choice.positions_given;
-  if (!search.choose_intervals && !search.choose_positions) return;
-  Study seeking = runner.subject().study;
-  if (search.choose_intervals) seeking.fidelity.quadrature.rule = QuadratureRule::Graded;
-  search.seek_extremes = seeks_extremes(seeking);
-  if (choice.quadrature_given) search.fewest_intervals = choice.fidelity.quadrature.intervals;
-  if (choice.positions_given) search.fewest_positions = choice.positions;
-  search.for_each = for_each_in_parallel;
-  const FidelityLevel level = coarse_level(choice.fidelity);
-  std::map<MeshPlacement, int> placements;  // load cases of one placement share their meshes
-  std::vector<ResolutionCase> cases;
-  for (const DesignScene& scene : scenes) {
-    const MeshPlacement placement = placement_of(level.gap, scene.condition, runner.subject().shafts.get(), scene.torque);
-    const int number = placements.try_emplace(placement, static_cast<int>(placements.size())).first->second;
-    cases.push_back({runner.mesh(level, scene), scene.condition, scene.torque, number});
-  }
-  int analysed = 0;
-  search.starting = [&](int intervals, int positions, int load_cases) {
-    if (progress)
-      progress("choosing accuracy", analysed, 0, fmt::format("{} load cases by {} intervals, {} positions", load_cases, intervals, positions));
-    analysed += load_cases;
-  };
-  choice.discretisation = choose_discretisation(cases, seeking.fidelity.quadrature.rule, search);
-  const Discretisation& found = choice.discretisation;
-  choice.governing = scenes[found.governing].name;
-  choice.governing_torque = scenes[found.governing].torque;
-  choice.failures = found.failures;
-  choice.fidelity.quadrature = {seeking.fidelity.quadrature.rule, found.positions > 0 ? found.quadrature.intervals : search.fewest_intervals};
-  if (!choice.positions_given) choice.positions = std::max(found.positions, search.fewest_positions);
-  choice.quadrature_error = found.quadrature_error;
-  choice.position_error = found.position_error;
-  choice.resolution_error = found.error();
-}
-
 }  // namespace
 
 PerFigure FidelityChoice::error() const {
@@ -152,40 +106,37 @@ PerFigure FidelityChoice::effects_budget() const {
   return left;
 }
 
-FidelityChoice choose_fidelity(LevelRunner& runner, const ProgressReport& progress) {
+FidelityChoice choose_models(LevelRunner& runner, const ProgressReport& progress) {
   const Stopwatch clock;
   const Study& study = runner.subject().study;
   FidelityChoice choice;
   choice.accuracy = *study.fidelity.accuracy;
   choice.fidelity = study.fidelity;
-  choice.positions = study.cycle.positions;
   choice.compliance_given = is_given(study, "fidelity.compliance");
   choice.gap_given = is_given(study, "fidelity.gap");
-  choice.quadrature_given = is_given(study, "fidelity.quadrature");
-  choice.positions_given = is_given(study, "cycle.positions") || is_given(study, "cycle.phases");
+  choice.quadrature_given = !study.fidelity.automatic_intervals;
+  choice.positions_given = !study.cycle.automatic_positions || !study.cycle.phases.empty();
+  if (progress) progress("choosing models", 0, 0, fmt::format("for an accuracy of {:.3g} %", 100.0 * choice.accuracy));
   if (!choice.compliance_given) choose_compliance(runner, choice);
   if (!choice.gap_given) choose_gap(runner, choice);
-  choose_resolution(runner, choice, progress);
+  choice.fidelity.resolution_accuracy = left_of(choice.accuracy, headline(root_sum_square(choice.compliance_error, choice.gap_error)));
   choice.choosing_seconds = clock.seconds();
-  choice.kept = choice.failures == 0 && headline(choice.error()) <= choice.accuracy;
   return choice;
 }
 
 std::string unmet_accuracy(const FidelityChoice& choice) {
   if (choice.failures > 0) return "the accuracy asked for is not known to be kept: the load distribution did not converge everywhere";
   const PerFigure error = choice.error();
+  if (std::ranges::any_of(error, [](double e) { return std::isnan(e); })) {
+    return "the accuracy asked for is not known to be kept: no error is estimated at listed phases, or with fewer than 4 positions or 2 intervals";
+  }
   const auto worst = std::ranges::find(error, headline(error));
   return fmt::format("an accuracy of {:.3g} % is not kept: {} is estimated within {:.3g} %", 100.0 * choice.accuracy,
                      name_of(static_cast<Figure>(worst - error.begin())), 100.0 * *worst);
 }
 
-Study with_choice(Study study, const FidelityChoice& choice) {
+Study with_models(Study study, const FidelityChoice& choice) {
   study.fidelity = choice.fidelity;
-  study.fidelity.automatic_intervals = false;
-  if (!choice.positions_given) {
-    study.cycle.positions = choice.positions;
-    study.cycle.automatic_positions = false;
-  }
   return study;
 }
 

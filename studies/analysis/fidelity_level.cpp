@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/base/thread_stopwatch.hpp"
-#include "core/fidelity/discretisation.hpp"
+#include "core/fidelity/resolution_level.hpp"
 #include "core/fidelity/resolved_cycle.hpp"
 #include "core/rating/contact_peaks.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/load/cycle/cycle_figures.hpp"
-#include "core/fidelity/discretisation.hpp"
+#include "core/fidelity/resolved_analysis.hpp"
 #include "optimize/design/problem/design_task.hpp"
 #include "core/compliance/model/gear_structures.hpp"
 #include "studies/base/progress.hpp"

@@ -9,33 +9,88 @@
 
 namespace flankwright::studies {
 
-bool refine_resolution(StudyResults& results) {
-  const LoadedResult* worst = nullptr;
-  double largest = 0.0;
+namespace {
+
+/// Of a load case; what the study gives counts as exact.
+ResolutionLevel level_of(const JudgedCase& of, const StudyResults& results) {
+  const CycleErrorParts& parts = of.resolved->error_parts;
+  ResolutionLevel level{results.study.fidelity.quadrature.intervals, static_cast<int>(results.phases.size()),
+                        figures_of(*of.model, *of.cycle, of.resolved->summary)};
+  if (!results.fidelity_choice->quadrature_given) level.quadrature_error = error_shares(parts.points, level.figures);
+  if (!results.fidelity_choice->positions_given) level.position_error = error_shares(parts.positions, level.figures);
+  return level;
+}
+
+}  // namespace
+
+std::vector<JudgedCase> judged_cases(const StudyResults& results) {
+  std::vector<JudgedCase> cases;
   for (const LoadedResult& loaded : results.loaded) {
-    const double error = headline_error(loaded.resolved.errors, loaded.resolved.summary, loaded.cycle);
+    if (loaded.design != "before") cases.push_back({loaded.scene, loaded.torque, &results.models[loaded.model], &loaded.cycle, &loaded.resolved});
+  }
+  return cases;
+}
+
+bool refine_resolution(const std::vector<JudgedCase>& cases, StudyResults& results, int most_doublings) {
+  const JudgedCase* worst = nullptr;
+  double largest = 0.0;
+  for (const JudgedCase& of : cases) {
+    const double error = headline_error(of.resolved->errors, of.resolved->summary, *of.cycle);
     if (!std::isgreater(error, largest)) continue;  // quiet where none was estimated
     largest = error;
-    worst = &loaded;
+    worst = &of;
   }
-  Quadrature& quadrature = results.study.fidelity.quadrature;
+  Fidelity& fidelity = results.study.fidelity;
   Cycle& cycle = results.study.cycle;
-  AutomaticResolution resolution{.intervals = quadrature.intervals,
+  AutomaticResolution resolution{.accuracy = fidelity.resolution_accuracy,
+                                 .intervals = fidelity.quadrature.intervals,
                                  .positions = cycle.positions,
-                                 .choose_intervals = results.study.fidelity.automatic_intervals,
+                                 .choose_intervals = fidelity.automatic_intervals,
                                  .choose_positions = cycle.automatic_positions && cycle.phases.empty()};
   if (worst == nullptr || largest <= resolution.accuracy) return false;
-  if (refine(resolution, worst->resolved, worst->cycle)) {
-    quadrature.intervals = resolution.intervals;
+  if (refine(resolution, *worst->resolved, *worst->cycle)) {
+    constexpr double per_doubling = 4.0;  // of order two
+    for (int more = 1; more < most_doublings && largest > std::pow(per_doubling, more) * resolution.accuracy; ++more)
+      refine(resolution, *worst->resolved, *worst->cycle);
+    if (results.fidelity_choice) results.fidelity_choice->levels.push_back(level_of(*worst, results));
+    fidelity.quadrature.intervals = resolution.intervals;
     cycle.positions = resolution.positions;
     return true;
   }
-  const bool is_given = mostly_by_points(worst->resolved, worst->cycle) ? !results.study.fidelity.automatic_intervals : !cycle.automatic_positions;
-  if (is_given) return false;
+  const bool is_given = mostly_by_points(*worst->resolved, *worst->cycle) ? !fidelity.automatic_intervals : !cycle.automatic_positions;
+  if (is_given || results.fidelity_choice) return false;
   results.notes.push_back(
       fmt::format("the figures of scene \"{}\" are known to {:.3g} % only, with {} intervals along a contact line and {} mesh positions",
-                  worst->scene, 100.0 * largest, quadrature.intervals, results.phases.size()));
+                  worst->scene, 100.0 * largest, fidelity.quadrature.intervals, results.phases.size()));
   return false;
+}
+
+void state_resolution(StudyResults& results) {
+  if (!results.fidelity_choice) return;
+  FidelityChoice& choice = *results.fidelity_choice;
+  choice.fidelity = results.study.fidelity;
+  choice.positions = static_cast<int>(results.phases.size());
+  choice.left_out = results.left_out;
+  choice.quadrature_error = choice.position_error = choice.resolution_error = {};
+  choice.failures = 0;
+  std::optional<ResolutionLevel> governing;
+  for (const JudgedCase& of : judged_cases(results)) {
+    choice.failures += of.cycle->failures;
+    const ResolutionLevel level = level_of(of, results);
+    choice.quadrature_error = larger_of(choice.quadrature_error, level.quadrature_error);
+    choice.position_error = larger_of(choice.position_error, level.position_error);
+    choice.resolution_error = larger_of(choice.resolution_error, level.error());
+    if (governing && !(headline(level.error()) > headline(governing->error()))) continue;
+    governing = level;
+    choice.governing = of.scene;
+    choice.governing_torque = of.torque;
+  }
+  if (governing) {
+    std::erase_if(choice.levels,
+                  [&](const ResolutionLevel& l) { return l.intervals == governing->intervals && l.positions == governing->positions; });
+    choice.levels.push_back(*governing);
+  }
+  choice.kept = choice.failures == 0 && headline(choice.error()) <= choice.accuracy;
 }
 
 }  // namespace flankwright::studies

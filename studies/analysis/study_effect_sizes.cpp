@@ -8,7 +8,7 @@
 #include <map>
 
 #include "core/base/stopwatch.hpp"
-#include "core/fidelity/discretisation.hpp"
+#include "core/fidelity/resolution_level.hpp"
 #include "core/fidelity/resolved_cycle.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
 

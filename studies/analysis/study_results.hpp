@@ -68,7 +68,7 @@ struct StudyResults {
   EffectDecisions effects;
   MeshEffects mesh_effects;  ///< those of them that are on, as all meshes of the study have them
   EffectSizes effect_sizes;
-  LeftOutEffects left_out;  ///< of what an accuracy leaves to them
+  LeftOutEffects left_out;  ///< by what an accuracy leaves to them
   std::vector<RunStep> steps;
   std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
   std::vector<GearDeflections> deflections;       ///< of both gears, where the compliance is of single gears

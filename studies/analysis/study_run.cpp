@@ -27,8 +27,9 @@
 
 namespace flankwright::studies {
 
-StudyRun::StudyRun(const Study& study, const ProgressReport& progress, const PerFigure& budget) : progress_(progress), budget_(budget) {
+StudyRun::StudyRun(const Study& study, const ProgressReport& progress, const std::optional<FidelityChoice>& choice) : progress_(progress) {
   results_.study = study;
+  results_.fidelity_choice = choice;
   results_.pair = make_gear_pair(study.pair);
   if (!study.task->single_gears) {
     results_.effects = study_effects(study);
@@ -47,6 +48,8 @@ StudyResults StudyRun::finish() {
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
+  state_resolution(results_);
+  if (results_.fidelity_choice && !results_.fidelity_choice->kept) results_.requirements.push_back(unmet_accuracy(*results_.fidelity_choice));
   results_.seconds = clock.seconds();
   return std::move(results_);
 }
@@ -338,42 +341,58 @@ void widen_edge_errors(const CycleErrors& stated, const CycleSummary& summary, c
 }  // namespace
 
 void StudyRun::hold_against_finer(std::size_t first) {
+  std::vector<HeldCase> cases;
+  for (std::size_t i = first; i < results_.loaded.size(); ++i) {
+    LoadedResult& loaded = results_.loaded[i];
+    // A search favours designs whose errors are in their favour. Its design is therefore held against every finer mesh that the search has made.
+    cases.push_back({{loaded.scene, loaded.torque, &results_.models[loaded.model], &loaded.cycle, &loaded.resolved},
+                     &loaded.condition,
+                     &loaded.resolved,
+                     loaded.design == "after",
+                     loaded.compared_intervals});
+  }
+  hold_against_finer(cases);
+  for (std::size_t i = first; i < results_.loaded.size(); ++i) results_.loaded[i].compared_intervals = cases[i - first].compared_intervals;
+}
+
+void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
   if (!results_.study.fidelity.automatic_intervals) return;
   Quadrature quadrature = results_.study.fidelity.quadrature;
   quadrature.intervals *= 2;
   struct Held {
-    LoadedResult* loaded;
+    HeldCase* of;
     bool is_wide;
   };
   std::map<MeshPlacement, std::vector<Held>> held;
-  for (std::size_t i = first; i < results_.loaded.size(); ++i) {
-    LoadedResult& loaded = results_.loaded[i];
-    const CycleErrors& points = loaded.resolved.error_parts.points;
-    const double error = headline_error(points, loaded.summary, loaded.cycle);
+  for (HeldCase& of : cases) {
+    if (of.compared_intervals == quadrature.intervals) continue;
+    const CycleErrors& points = of.resolved->error_parts.points;
+    const CycleSummary& summary = of.resolved->summary;
+    const double error = headline_error(points, summary, *of.judged.cycle);
     // Half the intervals may meet hardly anything of a narrow contact on a tip edge. It counts beside the peak that it may come to exceed.
-    const double on_edges = points.edge_stress / loaded.summary.peak_contact_stress;
-    const MeshPlacement placement = placement_of(loaded.condition, loaded.torque);
-    const bool is_wide = std::isgreater(std::fmax(std::fmax(error, on_edges), points.tip_edge_share), AutomaticResolution{}.accuracy);
-    // A search favours designs whose errors are in their favour. Its design is therefore held against every finer mesh that the search has made.
-    const bool is_known = loaded.design == "after" && mesh_of_search(placement, {quadrature, results_.phases});
-    if (is_wide || is_known) held[placement].push_back({&loaded, is_wide});
+    const double on_edges = points.edge_stress / summary.peak_contact_stress;
+    const MeshPlacement placement = placement_of(*of.condition, of.judged.torque);
+    const bool is_wide = std::isgreater(std::fmax(std::fmax(error, on_edges), points.tip_edge_share), results_.study.fidelity.resolution_accuracy);
+    const bool is_known = of.is_found && mesh_of_search(placement, {quadrature, results_.phases});
+    if (is_wide || is_known) held[placement].push_back({&of, is_wide});
   }
   const std::vector<std::pair<MeshPlacement, std::vector<Held>>> placed(held.begin(), held.end());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
     std::shared_ptr<const MeshModel> known = mesh_of_search(placed[i].first, {quadrature, results_.phases});
     if (!known) known = std::make_shared<const MeshModel>(mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {}));
     const MeshModel& finer = *known;
-    for (const auto& [loaded, is_wide] : placed[i].second) {
-      const LoadedCycle cycle = analyse_halves(finer, loaded->condition, loaded->torque);
-      const CycleErrors stated = loaded->resolved.error_parts.points;
-      flankwright::hold_against_finer(results_.models[loaded->model], loaded->cycle, finer, cycle, loaded->resolved);
-      const std::vector<double>& phases = loaded->resolved.extremes.phases;
+    for (const auto& [of, is_wide] : placed[i].second) {
+      const double torque = of->judged.torque;
+      const LoadedCycle cycle = analyse_halves(finer, *of->condition, torque);
+      const CycleErrors stated = of->resolved->error_parts.points;
+      flankwright::hold_against_finer(*of->judged.model, *of->judged.cycle, finer, cycle, *of->resolved);
+      const std::vector<double>& phases = of->resolved->extremes.phases;
       if (is_wide && !phases.empty() && stated.edge_stress > 0.0) {
         const MeshModel between = mesh(placed[i].first, {quadrature, phases}, nullptr, results_.shafts.get(), {});
-        const LoadedCycle at_extremes = analyse_cycle(between, loaded->condition, loaded->torque, {}, {}, RootStresses::Later);
-        widen_edge_errors(stated, loaded->summary, cycle, at_extremes, loaded->resolved);
+        const LoadedCycle at_extremes = analyse_cycle(between, *of->condition, torque, {}, {}, RootStresses::Later);
+        widen_edge_errors(stated, of->resolved->summary, cycle, at_extremes, *of->resolved);
       }
-      loaded->compared_intervals = quadrature.intervals;
+      of->compared_intervals = quadrature.intervals;
     }
   });
 }
@@ -397,16 +416,40 @@ void StudyRun::analyse() {
   const std::vector<DesignScene> scenes = is_rigid ? std::vector<DesignScene>() : loaded_scenes();
   if (scenes.empty()) return;
   const Stopwatch clock;
-  set_phases();
-  if (study.task->one_design) results_.left_out = drop_small_effects(results_, scenes, budget_);
+  begin_coarsely();
   analyse_loaded(scenes);
-  while (refine_resolution(results_)) {
+  while (needs_more_resolution()) {
     forget_loaded();
     analyse_loaded(scenes);
   }
+  leave_out_small_effects(scenes);
   hold_against_finer(0);
   results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", clock.seconds()});
   rate();
+}
+
+void StudyRun::begin_coarsely() {
+  // An accuracy may be kept with less than what a study without one begins with.
+  constexpr int fewest_intervals = 6, fewest_positions = 16;
+  Fidelity& fidelity = results_.study.fidelity;
+  Cycle& cycle = results_.study.cycle;
+  if (results_.fidelity_choice && fidelity.automatic_intervals) fidelity.quadrature.intervals = fewest_intervals;
+  if (results_.fidelity_choice && cycle.automatic_positions) cycle.positions = fewest_positions;
+  set_phases();
+}
+
+bool StudyRun::needs_more_resolution() {
+  if (results_.fidelity_choice) hold_against_finer(0);
+  return refine_resolution(judged_cases(results_), results_);
+}
+
+void StudyRun::leave_out_small_effects(const std::vector<DesignScene>& scenes) {
+  if (!results_.fidelity_choice || !results_.study.task->one_design) return;
+  state_resolution(results_);
+  results_.left_out = drop_small_effects(results_, scenes, results_.fidelity_choice->effects_budget());
+  if (results_.left_out.names.empty()) return;
+  forget_loaded();
+  analyse_loaded(scenes);
 }
 
 void StudyRun::analyse_loaded(const std::vector<DesignScene>& scenes) {

@@ -9,6 +9,7 @@
 
 #include "studies/analysis/fidelity_level.hpp"
 #include "studies/analysis/position_memory.hpp"
+#include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/spectrum_life.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/base/progress.hpp"
@@ -18,8 +19,8 @@ namespace flankwright::studies {
 /// One study while it is run. Its task calls the steps below, each of which adds to the results.
 class StudyRun {
  public:
-  /// @param budget  error of each figure that effects may be left out for [-], see drop_small_effects()
-  StudyRun(const Study& study, const ProgressReport& progress, const PerFigure& budget = {});
+  /// @param choice  models of an accuracy that the study asks for, which are in the study already; the run adds the resolution and effects to it
+  StudyRun(const Study& study, const ProgressReport& progress, const std::optional<FidelityChoice>& choice = {});
 
   /// Runs the study's task and the common end of all tasks: sizes and times of the effects, requirements that are not met.
   StudyResults finish();
@@ -64,10 +65,18 @@ class StudyRun {
   /// @param design  "given", "before" or "after"
   void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles);
 
-  /// Solves load cases from index `first` on anew with twice the intervals where half of them cannot say that the accuracy of AutomaticResolution is
+  /// Solves load cases from index `first` on anew with twice the intervals where half of them cannot say that Fidelity::resolution_accuracy is
   /// kept, edges included, which no resolution is refined for, and those that a search has looked at so finely. Their errors by points follow. Where the study gives its
   /// intervals it does nothing.
   void hold_against_finer(std::size_t first);
+  struct HeldCase {
+    JudgedCase judged;
+    const FlankCondition* condition;
+    ResolvedCycle* resolved;    ///< of `judged`
+    bool is_found;              ///< by a search
+    int compared_intervals{0};  ///< of the cycle that the errors by points come from; 0: it does not matter which
+  };
+  void hold_against_finer(std::vector<HeldCase>& cases);
 
   /// Adds refined peaks with and without spikes, and the load factors that follow, to the load cases of the results. Where peaks are sampled, as in an
   /// optimisation, only the load cases that use the strength most have them, for their safeties.
@@ -95,13 +104,15 @@ class StudyRun {
   void note_fits();
   void add_unloaded(const Scene& scene);
   void analyse_loaded(const std::vector<DesignScene>& scenes);
+  void begin_coarsely();
+  bool needs_more_resolution();
+  void leave_out_small_effects(const std::vector<DesignScene>& scenes);
   void forget_loaded();
   void find_edge_contact();
   void note_large_motions();
   void size_effects();
 
   const ProgressReport& progress_;
-  PerFigure budget_;
   StudyResults results_;
   std::shared_ptr<MeshStore> mesh_store_{std::make_shared<MeshStore>()};
   std::map<MeshPlacement, std::size_t> model_index_;

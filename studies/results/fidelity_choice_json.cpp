@@ -71,12 +71,14 @@ Json fidelity_choice_json(const FidelityChoice& choice) {
            {{"used", quadrature_json(choice.fidelity.quadrature)},
             {"given", choice.quadrature_given},
             {"estimate_percent", estimate(choice.quadrature_given, choice.quadrature_error)},
-            {"levels", levels_json(choice.discretisation.levels)}}},
+            {"levels", levels_json(choice.levels)}}},
           {"positions",
            {{"used", choice.positions},
             {"given", choice.positions_given},
             {"estimate_percent", estimate(choice.positions_given, choice.position_error)}}},
-          {"resolution", {{"estimate_percent", estimate(choice.quadrature_given && choice.positions_given, choice.resolution_error)}}},
+          {"resolution",
+           {{"accuracy_percent", percent * choice.fidelity.resolution_accuracy},
+            {"estimate_percent", estimate(choice.quadrature_given && choice.positions_given, choice.resolution_error)}}},
           {"governing", {{"scene", choice.governing}, {"torque_Nm", in_Nm(choice.governing_torque)}}},
           {"effects", {{"left_out", choice.left_out.names}, {"estimate_percent", estimates_json(choice.left_out.error)}}},
           {"choosing_seconds", choice.choosing_seconds}};
@@ -86,7 +88,7 @@ std::string fidelity_choice_summary(const FidelityChoice& choice) {
   const Json quadrature = quadrature_json(choice.fidelity.quadrature);
   std::string without;
   for (const std::string& name : choice.left_out.names) without += (without.empty() ? ", without " : ", ") + name;
-  return fmt::format("accuracy {:.3g} %: {}, {}, {} {} intervals, {} positions{}; estimated {:.2g} %, chosen in {:.2g} s\n\n",
+  return fmt::format("accuracy {:.3g} %: {}, {}, {} {} intervals, {} positions{}; estimated {:.2g} %, models chosen in {:.2g} s\n\n",
                      percent * choice.accuracy, to_string(choice.fidelity.compliance), to_string(choice.fidelity.gap),
                      quadrature.at("rule").get<std::string>(), choice.fidelity.quadrature.intervals, choice.positions, without,
                      percent * headline(choice.error()), choice.choosing_seconds);

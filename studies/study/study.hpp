@@ -11,6 +11,7 @@
 #include "core/compliance/shaft/unit_data.hpp"
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/assembly/misalignment.hpp"
+#include "core/fidelity/resolved_analysis.hpp"
 #include "core/gear/gear_data.hpp"
 #include "core/flank/modifications/modification.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
@@ -40,7 +41,9 @@ struct Fidelity {
   bool automatic_intervals{true};  ///< doubled from those of `quadrature` on where the figures need more
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
-  std::optional<double> accuracy;    ///< share that the rest shall keep, as far as it is not given; see choose_fidelity()
+  std::optional<double> accuracy;    ///< share that the rest shall keep, as far as it is not given; see choose_models()
+  /// Share of its figures within which a run refines intervals and positions that are not given, see headline_error(); of an accuracy what its models leave.
+  double resolution_accuracy{AutomaticResolution{}.accuracy};
   EffectSizing effect_sizes{EffectSizing::Estimated};
 };
 

@@ -26,6 +26,12 @@ PerFigure root_sum_square(const PerFigure& a, const PerFigure& b) {
   return both;
 }
 
+PerFigure larger_of(const PerFigure& a, const PerFigure& b) {
+  PerFigure larger{};
+  for (std::size_t i = 0; i < larger.size(); ++i) larger[i] = std::isnan(b[i]) ? b[i] : std::max(a[i], b[i]);
+  return larger;
+}
+
 PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& reference) {
   const double variation = std::max(reference[Figure::TePeakToPeak], quiet_share * reference.mean_approach);
   PerFigure errors{};

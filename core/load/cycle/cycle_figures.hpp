@@ -35,6 +35,8 @@ double largest(const PerFigure& values);
 double headline(const PerFigure& values);
 /// Errors of two independent causes: sqrt(a^2 + b^2) of each figure.
 PerFigure root_sum_square(const PerFigure& a, const PerFigure& b);
+/// The larger one of each figure; NaN where one of them is.
+PerFigure larger_of(const PerFigure& a, const PerFigure& b);
 
 struct CycleFigures {
   PerFigure value{};                ///< transmission error [mm], stress [MPa], line load [N/mm], load factor [-]

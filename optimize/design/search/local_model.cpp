@@ -66,11 +66,16 @@ AssessedParameter parameter_of_variable(const DesignTask& task, int variable, do
 
 double assessment_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
 
-std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
+std::vector<AssessedParameter> variable_parameters(const DesignTask& task) {
   std::vector<AssessedParameter> parameters;
   for (int i = 0; i < std::ssize(task.variables); ++i) {
     parameters.push_back(parameter_of_variable(task, i, assessment_step(task.variables[static_cast<std::size_t>(i)].unit())));
   }
+  return parameters;
+}
+
+std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
+  std::vector<AssessedParameter> parameters = variable_parameters(task);
   const auto misalignment = [&](const char* name, double step, const char* unit, MisalignmentParameter parameter, double inside) {
     parameters.push_back({std::string("misalignment.") + name, step, unit, parameter, inside});
   };

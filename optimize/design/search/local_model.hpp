@@ -25,10 +25,13 @@ AssessedParameter parameter_of_variable(const DesignTask& task, int variable, do
 /// One step of a modification in its outside unit, see assessed_parameters(). @param unit  DesignVariable::unit()
 double assessment_step(const std::string& unit);
 
-/// The task's variables with the modifications linked to them, then deviations of housing and workshop, the same in
-/// every scene: misalignment 1 um, crossing and intersecting 0.1 arcmin, centre distance 0.01 mm, helix and profile
-/// slope of either gear 1 um, torque 1 %. Amounts of a modification step by 1 um, extents by 0.1 mm, parabolic_te by
+/// The task's variables with the modifications linked to them. Amounts of a modification step by 1 um, extents by 0.1 mm, parabolic_te by
 /// 0.01 arcsec/deg^2.
+std::vector<AssessedParameter> variable_parameters(const DesignTask& task);
+
+/// variable_parameters(), then deviations of housing and workshop, the same in
+/// every scene: misalignment 1 um, crossing and intersecting 0.1 arcmin, centre distance 0.01 mm, helix and profile
+/// slope of either gear 1 um, torque 1 %.
 ///
 /// An error of helix or profile slope is the negative of that modification; the profile's differs by the same shift on all teeth,
 /// reference for pitch circle, which moves the transmission error's mean only.

@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/fidelity/discretisation.hpp"
+#include "core/fidelity/resolution_level.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;

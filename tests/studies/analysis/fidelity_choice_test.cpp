@@ -14,8 +14,8 @@ using namespace flankwright::studies;
 namespace {
 
 /// Thin slices, so that no finite elements are solved; `fidelity` adds to that.
-Study small_study(const std::string& fidelity, const std::string& more = "") {
-  return parse_study(R"([pair]
+Study small_study(const std::string& fidelity, const std::string& more = "", const std::string& task = "") {
+  return parse_study(task + R"([pair]
 normal_module = 4
 helix_angle = 15
 [pinion]
@@ -53,6 +53,11 @@ TEST_CASE("An accuracy chooses the settings that the study leaves open, reports 
   CHECK(json.at("accuracy_choice").at("kept") == true);
   CHECK(json.at("accuracy_choice").at("compliance").at("estimate_percent").is_null());
   CHECK(json.at("used").at("cycle").at("positions") == choice.positions);
+  // The last level is the one that is shown, and those before did not suffice.
+  const Json& levels = json.at("accuracy_choice").at("quadrature").at("levels");
+  CHECK(levels.back().at("positions") == choice.positions);
+  CHECK(levels.back().at("outputs").at("te_peak_to_peak_um") == json.at("loaded").at(0).at("summary").at("te_peak_to_peak_um"));
+  for (std::size_t i = 0; i + 1 < levels.size(); ++i) CHECK(levels[i].at("error_percent").at("worst").get<double>() > 10.0);
   CHECK(json.at("used").at("fidelity").at("accuracy") == Approx(0.10).epsilon(1e-14));  // round-off
 }
 
@@ -96,6 +101,41 @@ TEST_CASE("Settings that a study gives beside an accuracy are kept", "[studies][
   CHECK(results.phases.size() == 18);
   CHECK(results.study.fidelity.gap == GapModel::PlaneOfAction);
   CHECK(largest(results.fidelity_choice->resolution_error) == 0.0);  // nothing was left to choose
+}
+
+TEST_CASE("An accuracy is not known to be kept at phases that a study lists", "[studies][accuracy][fidelity-choice]") {
+  const StudyResults results = run_study(small_study("accuracy = \"20 %\"", "[cycle]\nphases = [0.1, 0.6]\n"));
+  REQUIRE(results.fidelity_choice);
+  CHECK_FALSE(results.fidelity_choice->kept);
+  REQUIRE(results.requirements.size() == 1);
+  CHECK_THAT(results.requirements[0], Catch::Contains("no error is estimated at listed phases"));
+}
+
+TEST_CASE("The optimum of a study with an accuracy keeps it", "[studies][accuracy][fidelity-choice]") {
+  const std::string search = R"([optimise]
+objective = "peak_contact_stress"
+comparison.rules = "off"
+[optimise.variables]
+"pinion.modification.lead_crowning" = [0, 20]
+)";
+  const auto optimised = [&](const std::string& fidelity) { return run_study(small_study(fidelity, search, "task = \"optimise\"\n")); };
+  const StudyResults found = optimised("accuracy = \"2 %\"");
+  REQUIRE(found.fidelity_choice);
+  const FidelityChoice& choice = *found.fidelity_choice;
+  CHECK(choice.kept);
+  CHECK(headline(choice.error()) <= 0.02);
+  CHECK(choice.fidelity.quadrature.intervals == found.study.fidelity.quadrature.intervals);
+  // Its stress beside that of the same flanks, resolved more finely than the search.
+  const auto after = std::ranges::find(found.loaded, "after", &LoadedResult::design);
+  REQUIRE(after != found.loaded.end());
+  Study finer = found.study;
+  finer.task = small_study("").task;
+  finer.modification = found.designs.back().modification;
+  finer.fidelity.accuracy.reset();
+  finer.fidelity.quadrature.intervals = 48;
+  finer.cycle.positions = 128;
+  const StudyResults fine = run_study(finer);
+  CHECK(after->summary.peak_contact_stress == Approx(fine.loaded.at(0).summary.peak_contact_stress).epsilon(0.02));
 }
 
 TEST_CASE("An accuracy that no resolution keeps is a requirement not met", "[studies][accuracy][fidelity-choice]") {

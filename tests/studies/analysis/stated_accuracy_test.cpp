@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "core/fidelity/discretisation.hpp"
+#include "core/fidelity/resolution_level.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/common/random.hpp"

@@ -131,7 +131,7 @@ function choice_of_figure(state, redraw, has_outside) {
 function build_accuracy_choice(choice, body) {
   const estimate = record(choice.estimate_percent);
   body.append(el("p", { class: choice.kept ? "banner" : "banner bad" }, `Asked for ${fmt(choice.asked_percent, 3)} %, estimated ${fmt(estimate.worst, 2)} %`
-    + `${choice.kept ? "" : ": not kept"}. Chosen in ${time_text(choice.choosing_seconds)}.`));
+    + `${choice.kept ? "" : ": not kept"}. Models chosen in ${time_text(choice.choosing_seconds)}.`));
   const quadrature = record(record(choice.quadrature).used);
   const used = { compliance: record(choice.compliance).used, gap: record(choice.gap).used,
     quadrature: `${quadrature.rule} ${fmt(quadrature.intervals)}`, positions: record(choice.positions).used,
@@ -154,7 +154,7 @@ function build_accuracy_choice(choice, body) {
     .map((l, i, all) => level(`${fmt(l.intervals)} intervals, ${fmt(l.positions)} positions`, l, i === all.length - 1));
   table(body, {
     title: "Candidates",
-    note: "Models are compared at a coarse resolution. The resolutions are those tried for the load case that needs the finest one.",
+    note: "Models are compared at a coarse resolution. The resolutions are those of the run, each with the load case that was known least.",
     columns: [{ label: "Candidate" }, { label: "Chosen" }, { label: "Estimated error, worst quantity", unit: "%", digits: 2 }, { label: "Time", unit: "s", digits: 2 }],
     rows: [...tried, ...levels],
   });

@@ -1,0 +1,283 @@
+#include "studies/tasks/optimise/optimise_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stopwatch.hpp"
+#include "optimize/assessment/usual_signs.hpp"
+#include "optimize/design/between_positions.hpp"
+#include "optimize/design/more_intervals.hpp"
+#include "optimize/design/resolved_design.hpp"
+#include "optimize/design/spare_limits.hpp"
+#include "studies/analysis/study_effects.hpp"
+#include "studies/compliance/study_compliance.hpp"
+#include "studies/study_file/study_life.hpp"
+#include "studies/tasks/optimise/drawn_scenes.hpp"
+#include "studies/tasks/optimise/optimise_table.hpp"
+#include "studies/tasks/optimise/unmet_constraints.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// Relative gain of the objective below which two designs are as good.
+constexpr double worth_going_on = 1e-3;
+
+/// The best design met, before choices and steps.
+const DesignReport& exact_of(const TwoLevelDesign& found) { return found.design.exact ? *found.design.exact : found.design.after; }
+
+bool is_usable(const DesignReport& report) {
+  return std::ranges::all_of(report.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
+}
+
+/// Where a search goes on from a design.
+Eigen::VectorXd start_at(const DesignProblem& problem, const DesignReport& report) {
+  return problem.scaled_design(report.variables).cwiseMax(0.0).cwiseMin(1.0);
+}
+
+}  // namespace
+
+OptimiseSearch::OptimiseSearch(StudyRun& run) : run_(run), results_(run.results()) {
+  run_.set_phases();
+  task_ = design_task();
+}
+
+TwoLevelDesign OptimiseSearch::find(DesignProblem& problem, const DesignOptions& options) {
+  DesignOptions exact = options;
+  exact.to_grind = false;
+  TwoLevelDesign found = optimise_by_two_levels(problem, exact);
+  take_more_positions(problem, exact, found);
+  take_better_usual_design(problem, exact, found);
+  keep_accuracy(problem, exact, found);
+  const std::vector<double> by_intervals = take_more_intervals(problem, exact, found);
+  choose_what_to_grind(problem, options, found);
+  keep_constraints_where_finer(problem, options, by_intervals, found);
+  if (seeks_extremes(results_.study))
+    search_between_positions(
+        problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, found);
+  return found;
+}
+
+std::vector<DesignScene> OptimiseSearch::all_scenes() const {
+  std::vector<DesignScene> scenes = run_.loaded_scenes();
+  const int spectra = static_cast<int>(results_.study.scenes.size());
+  for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.table<OptimiseTable>().assessment.scenes))) {
+    if (scene.spectrum >= 0) scene.spectrum += spectra;
+    scene.draw = -1;  // here each of its load cases is a scene like those listed
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+DesignTask OptimiseSearch::design_task() {
+  const Study& study = results_.study;
+  DesignTask task;
+  task.pair = results_.pair;
+  task.material = study.material;
+  task.resolution = {study.fidelity.quadrature, results_.phases};
+  task.gap = gap_model(results_.effects);
+  task.effects = results_.mesh_effects;
+  task.structure = run_.structures().pair;
+  if (study.fidelity.accuracy && study.fidelity.compliance == ComplianceModel::Fe) task.search_structure = structure_to_search_by();
+  task.shafts = results_.shafts;
+  task.meshes = run_.mesh_store();
+  task.modification = analysed_modification(study, results_.effects);
+  task.variables = study.table<OptimiseTable>().variables;
+  task.objective = study.table<OptimiseTable>().objective;
+  task.over = study.table<OptimiseTable>().over;
+  task.within_draw = study.table<OptimiseTable>().over;
+  task.constraints = study.table<OptimiseTable>().constraints;
+  task.links = study.table<OptimiseTable>().links;
+  task.modification_constraints = study.table<OptimiseTable>().modification_constraints;
+  task.grindable = study.table<OptimiseTable>().grindable;
+  task.later_objectives = study.table<OptimiseTable>().later_objectives;
+  task.lexicographic_tolerance = study.table<OptimiseTable>().lexicographic_tolerance;
+  if (asks_for_root_stress(study)) task.root_stress = run_.structures().root_stress;
+  task.life = life_model(study);
+  task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
+  return task;
+}
+
+std::shared_ptr<const PairCompliance> OptimiseSearch::structure_to_search_by() const {
+  Study fitted = results_.study;
+  fitted.fidelity.compliance = ComplianceModel::Fitted;
+  return gear_structures(fitted, results_.pair, run_.progress()).pair;
+}
+
+double OptimiseSearch::excess_of(const DesignReport& report) const {
+  double excess = -INFINITY;
+  const std::vector<OutputConstraint>& constraints = task_.constraints;
+  for (std::size_t c = 0; c < constraints.size(); ++c) excess = std::max(excess, constraints[c].excess(report.constraint_values[c]));
+  return excess;
+}
+
+DesignReport OptimiseSearch::shown_between_positions(const DesignProblem& problem, const DesignReport& report) {
+  DesignReport shown = report;
+  resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
+  return shown;
+}
+
+bool OptimiseSearch::rises_between_positions(const DesignReport& at_positions, const DesignReport& shown, bool infeasible) const {
+  const double accuracy = results_.study.fidelity.resolution_accuracy;
+  if (infeasible) return 1.0 + excess_of(shown) > (1.0 + accuracy) * (1.0 + excess_of(at_positions));
+  const std::vector<OutputConstraint>& constraints = task_.constraints;
+  for (std::size_t c = 0; c < constraints.size(); ++c) {
+    const double value = shown.constraint_values[c], rise = value - at_positions.constraint_values[c];
+    if (constraints[c].excess(value) > DesignLog::tolerance && rise > accuracy * std::abs(constraints[c].limit())) return true;
+  }
+  return shown.objective > (1.0 + accuracy) * at_positions.objective;
+}
+
+void OptimiseSearch::take_more_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  constexpr int most_turns = 2;
+  const Cycle& cycle = results_.study.cycle;
+  for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && cycle.automatic_positions; ++turn) {
+    const Stopwatch clock;
+    const double seconds = found.design.seconds;
+    const DesignReport& best = exact_of(found);
+    const bool infeasible = found.design.status == SolverStatus::Infeasible;  // then it is the excess that was searched for
+    if (!rises_between_positions(best, shown_between_positions(problem, best), infeasible)) return;
+    const Eigen::VectorXd x = start_at(problem, best);
+    run_.set_positions(2 * cycle.positions);
+    go_on_at_resolution(problem, options, x, found);
+    found.fine.seconds += clock.seconds();
+    found.design.seconds = seconds + clock.seconds();
+  }
+}
+
+std::vector<double> OptimiseSearch::take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  while (may_look_finer()) {
+    const Stopwatch clock;
+    const double seconds = found.design.seconds;
+    const DesignReport& best = exact_of(found);
+    if (!is_usable(best)) return {};
+    const FinerLook look = look_finer(problem, best, found.design.status == SolverStatus::Infeasible);
+    if (!look.needs_more) return look.excess_changes;
+    const Eigen::VectorXd x = start_at(problem, best);
+    run_.set_intervals(2 * results_.study.fidelity.quadrature.intervals);
+    go_on_at_resolution(problem, options, x, found);
+    found.fine.seconds += clock.seconds();
+    found.design.seconds = seconds + clock.seconds();
+  }
+  return {};
+}
+
+void OptimiseSearch::keep_accuracy(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  while (results_.fidelity_choice) {
+    const Stopwatch clock;
+    const double seconds = found.design.seconds;
+    const DesignReport& best = exact_of(found);
+    if (!is_usable(best)) return;
+    std::vector<ResolvedCycle> resolved = resolved_cycles(problem, best.analysis, true);
+    std::vector<StudyRun::HeldCase> held;
+    std::vector<DesignScene> scenes;
+    for (int i = 0; i < problem.scenes(); ++i) scenes.push_back(scene_of(best.analysis, i));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      const DesignScene& scene = scenes[i];
+      held.push_back({{scene.name, scene.torque, &problem.model(static_cast<int>(i)), &best.analysis.cycles[i], &resolved[i]},
+                      &scene.condition,
+                      &resolved[i],
+                      true});
+    }
+    if (may_look_finer()) run_.hold_against_finer(held);
+    std::vector<JudgedCase> cases;
+    for (const StudyRun::HeldCase& of : held) cases.push_back(of.judged);
+    constexpr int most_doublings = 2;  // a search at a level between would be left anyway
+    if (!refine_resolution(cases, results_, most_doublings)) return;
+    const Eigen::VectorXd x = start_at(problem, best);
+    run_.set_intervals(results_.study.fidelity.quadrature.intervals);  // and the positions with them
+    go_on_at_resolution(problem, options, x, found);
+    found.fine.seconds += clock.seconds();
+    found.design.seconds = seconds + clock.seconds();
+  }
+}
+
+bool OptimiseSearch::may_look_finer() const {
+  const Fidelity& fidelity = results_.study.fidelity;
+  return fidelity.automatic_intervals && 2 * fidelity.quadrature.intervals <= AutomaticResolution{}.most_intervals;
+}
+
+void OptimiseSearch::go_on_at_resolution(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found) {
+  task_ = design_task();
+  problem = DesignProblem(task_);
+  go_on_from_best(problem, options, best_starts(problem, found.design, x), found);
+  found.fine.resolution = problem.task().resolution;
+}
+
+void OptimiseSearch::take_better_usual_design(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  const DesignReport& best = found.design.after;
+  if (!is_usable(best) || best.analysis.cycles.empty() || found.design.status == SolverStatus::Infeasible || !problem.task().later_objectives.empty())
+    return;
+  const Stopwatch clock;
+  run_.report("looking for the usual signs", 0, 1, "");
+  const std::optional<UsualSigns> usual = find_usual_signs(problem, best, left_of(options.solver, found.design).max_seconds);
+  if (!usual || !usual->design || !(usual->price < -worth_going_on)) return;
+  const double seconds = found.design.seconds;
+  TwoLevelDesign further = found;
+  problem.set_start(start_at(problem, *usual->design));
+  go_on(problem, options, further);
+  if (further.design.status == SolverStatus::Infeasible || !(further.design.after.objective < found.design.after.objective)) return;
+  found = std::move(further);
+  found.fine.seconds += clock.seconds();
+  found.design.seconds = seconds + clock.seconds();
+}
+void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const DesignOptions& options, std::vector<double> by_intervals,
+                                                  TwoLevelDesign& found) {
+  constexpr int most_turns = 3;
+  struct Turn {
+    TwoLevelDesign found;
+    DesignTask task;
+    double excess;
+  };
+  const std::vector<OutputConstraint>& asked = task_.constraints;
+  const auto infeasible = [&] { return found.design.status == SolverStatus::Infeasible; };
+  if (!seeks_extremes(results_.study) || asked.empty() || infeasible()) return;
+  std::optional<Turn> best;
+  double last = INFINITY;
+  for (int turn = 0; turn <= most_turns && !infeasible(); ++turn) {
+    const Stopwatch clock;
+    const double seconds = found.design.seconds;
+    if (turn > 0 && !by_intervals.empty()) by_intervals = look_finer(problem, found.design.after, false).excess_changes;
+    const std::vector<double> excesses = finer_excesses(shown_between_positions(problem, found.design.after), by_intervals);
+    last = std::max(DesignLog::tolerance, std::ranges::max(excesses));
+    if (!best || last < best->excess) best = Turn{found, problem.task(), last};
+    DesignTask tighter = problem.task();
+    if (!spare_limits(tighter.constraints, asked, found.design.after.constraint_values, excesses) || turn == most_turns) break;
+    const Eigen::VectorXd x = problem.scaled_design(exact_of(found).variables);
+    problem = DesignProblem(tighter);
+    problem.set_start(x.cwiseMax(0.0).cwiseMin(1.0));
+    go_on(problem, options, found);
+    found.fine.seconds += clock.seconds();
+    found.design.seconds = seconds + clock.seconds();
+  }
+  if (!infeasible() && last <= best->excess) return;
+  const double seconds = found.design.seconds, fine_seconds = found.fine.seconds;
+  problem = DesignProblem(best->task);
+  found = std::move(best->found);
+  found.design.seconds = seconds;
+  found.fine.seconds = fine_seconds;
+}
+
+std::vector<double> OptimiseSearch::finer_excesses(const DesignReport& shown, const std::vector<double>& by_intervals) const {
+  const std::vector<OutputConstraint>& asked = task_.constraints;
+  std::vector<double> excesses;
+  for (std::size_t c = 0; c < asked.size(); ++c)
+    excesses.push_back(asked[c].excess(shown.constraint_values[c]) + (by_intervals.empty() ? 0.0 : std::max(0.0, by_intervals[c])));
+  return excesses;
+}
+
+DesignScene OptimiseSearch::scene_of(const DesignAnalysis& analysis, int s) const {
+  DesignScene scene = task_.scenes[static_cast<std::size_t>(s)];
+  scene.condition = scene.with_design(analysis.modification);
+  return scene;
+}
+
+std::vector<ResolvedCycle> OptimiseSearch::resolved_cycles(const DesignProblem& problem, const DesignAnalysis& analysis, bool with_errors) {
+  std::vector<StudyRun::SolvedCase> cases;
+  for (int s = 0; s < problem.scenes(); ++s) {
+    cases.push_back({scene_of(analysis, s), &problem.model(s), &analysis.cycles[static_cast<std::size_t>(s)]});
+  }
+  return run_.resolved(cases, with_errors);
+}
+
+}  // namespace flankwright::studies

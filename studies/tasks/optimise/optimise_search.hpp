@@ -1,0 +1,72 @@
+#pragma once
+
+#include <vector>
+
+#include "optimize/design/two_level.hpp"
+#include "studies/analysis/study_run.hpp"
+
+namespace flankwright::studies {
+
+/// The search of an optimisation: from coarse to fine, until the design is the optimum of what an analysis of it would show.
+class OptimiseSearch {
+ public:
+  explicit OptimiseSearch(StudyRun& run);
+
+  /// What is searched, with the limits that the study asks for, at the resolution that has been reached.
+  const DesignTask& task() const { return task_; }
+
+  /// Searches from all starts, takes as many positions and intervals as the design needs, and chooses what can be ground.
+  /// @param problem  of task(); afterwards at the resolution that was reached, and with limits that keep those of the study where they are seen more finely
+  TwoLevelDesign find(DesignProblem& problem, const DesignOptions& options);
+
+  /// By how much a design exceeds the constraint that it exceeds most [-, relative to the limit]; below 0: it keeps all.
+  double excess_of(const DesignReport& report) const;
+
+  /// A scene with the modifications of a design.
+  DesignScene scene_of(const DesignAnalysis& analysis, int s) const;
+
+  /// What lies between the positions of a design, for each load case; with the errors of its figures where asked for.
+  std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignAnalysis& analysis, bool with_errors);
+
+ private:
+  /// The listed ones and those drawn from tolerances.
+  std::vector<DesignScene> all_scenes() const;
+  DesignTask design_task();
+  /// Of an accuracy that asks for finite elements: the fitted compliance, whose optima lie near theirs.
+  std::shared_ptr<const PairCompliance> structure_to_search_by() const;
+  /// A design as it is shown, with what lies between the positions.
+  DesignReport shown_between_positions(const DesignProblem& problem, const DesignReport& report);
+  /// Whether the positions see too little of a design. Between them the objective, or the value of a constraint that is exceeded, rises by more than the accuracy for
+  /// which an analysis chooses its positions. Where no design keeps the constraints, the excess takes the objective's place.
+  bool rises_between_positions(const DesignReport& at_positions, const DesignReport& shown, bool infeasible) const;
+  /// A search at few positions may leave a peak between them, such as that of an edge which a hundredth of a micrometre of relief keeps from touching. It goes
+  /// on at twice the positions then.
+  void take_more_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+  /// A search with few points along the contact lines may see a transmission error, or an order of the scenes, that more points do not. It goes on with twice
+  /// the intervals then, up to those of an analysis.
+  /// @returns by how much still more intervals change the constraints, as FinerLook has it; empty where that is not known
+  std::vector<double> take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+  /// Where the study asks for an accuracy, the figures of the best design are to keep it: while they do not, the search goes on at the resolution of refine_resolution().
+  void keep_accuracy(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+  bool may_look_finer() const;
+  /// Continues from a design, or from optima beside it, at a resolution that has changed.
+  void go_on_at_resolution(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);
+  /// A search may get stuck at a design that is seldom ground. Where the best design within the limits that flanks have as a rule is better, the search goes on
+  /// from there. A list of objectives is left out, because each of its objectives has a limit from the ones before.
+  void take_better_usual_design(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+  /// Constraints that are kept at the positions may be exceeded between them, or with more intervals along the contact lines. They are then asked for at the positions with as much
+  /// to spare, and the search goes on from there; `problem` has these limits afterwards. A limit that would fall to 0 stays as it is. Of
+  /// all designs met, the one is kept that exceeds the constraints least as it is seen more finely. Nothing to do where no design keeps the constraints at all.
+  /// @param by_intervals  of the design found, see take_more_intervals()
+  void keep_constraints_where_finer(DesignProblem& problem, const DesignOptions& options, std::vector<double> by_intervals, TwoLevelDesign& found);
+  /// Per constraint the excess of a design with what more intervals would add to it; what they would take from it is left out.
+  /// @param shown         with what lies between the positions
+  /// @param by_intervals  FinerLook::excess_changes
+  std::vector<double> finer_excesses(const DesignReport& shown, const std::vector<double>& by_intervals) const;
+
+  StudyRun& run_;
+  StudyResults& results_;
+  DesignTask task_;
+};
+
+}  // namespace flankwright::studies
