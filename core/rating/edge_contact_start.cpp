@@ -29,15 +29,15 @@ MeshModel at_position(const MeshModel& model, std::size_t position) {
 struct Touched {
   std::size_t position;
   double stress;  ///< the largest of a strip that reaches an edge; of a sharp one that of the flank [MPa]
-  Member gear;    ///< whose edge it is
 };
 
-/// Nothing where no edge is touched.
-std::optional<Touched> touched(const MeshPosition& at, const LoadedPosition& loaded, std::size_t position) {
+/// Nothing where no edge of the gear is touched.
+std::optional<Touched> touched(const MeshPosition& at, const LoadedPosition& loaded, std::size_t position, Member of) {
   std::optional<Touched> found;
   for (std::size_t i = 0; i < at.points.size(); ++i) {
+    if (at.points[i].tip_edge.gear != of) continue;
     const double stress = loaded.contact_stress[static_cast<Eigen::Index>(i)];
-    if ((!found || stress > found->stress) && reaches_tip_edge(at, loaded, i)) found = {position, stress, at.points[i].tip_edge.gear};
+    if ((!found || stress > found->stress) && reaches_tip_edge(at, loaded, i)) found = {position, stress};
   }
   return found;
 }
@@ -61,7 +61,7 @@ bool reaches_tip_edge(const MeshModel& model, const LoadedCycle& cycle) {
   return false;
 }
 
-std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
+std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque, Member of,
                                                    double earlier_than) {
   const double close = 1e-3 * pinion_torque;
   const double whole = std::min(pinion_torque, earlier_than - close);
@@ -70,36 +70,34 @@ std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const
   std::vector<Touched> candidates;
   if (cycle.usable()) {
     for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
-      if (const auto found = touched(model.positions[p], cycle.positions[p], p)) candidates.push_back(*found);
+      if (const auto found = touched(model.positions[p], cycle.positions[p], p, of)) candidates.push_back(*found);
     }
   }
   if (candidates.empty()) return std::nullopt;
   std::ranges::stable_sort(candidates, std::greater(), &Touched::stress);
 
   // Positions that no edge touches at some torque are out of the question below it.
-  EdgeContactStart start{whole, candidates.front().gear, model.positions[candidates.front().position].phase};
+  EdgeContactStart start{whole, of, model.positions[candidates.front().position].phase};
   for (const Touched& candidate : candidates) {
     const MeshModel one = at_position(model, candidate.position);
-    const auto touches = [&](double torque) -> std::optional<Touched> {
+    const auto touches = [&](double torque) {
       const LoadedCycle there = analyse_cycle(one, condition, torque, {}, {}, RootStresses::Later);
-      return there.usable() ? touched(one.positions[0], there.positions[0], candidate.position) : std::nullopt;
+      return there.usable() && touched(one.positions[0], there.positions[0], candidate.position, of).has_value();
     };
     double without = 0.0, torque = start.torque;
     // The first is known to touch at this torque, the others have to do so earlier than those before them.
     if (&candidate != &candidates.front()) torque -= close;
     if (!(torque > 0.0)) break;
-    std::optional<Touched> found = &candidate == &candidates.front() ? candidate : touches(torque);
-    if (!found) continue;
+    if (&candidate != &candidates.front() && !touches(torque)) continue;
     while (torque - without > close) {
       const double between = 0.5 * (without + torque);
-      if (const auto earlier = touches(between)) {
-        found = earlier;
+      if (touches(between)) {
         torque = between;
       } else {
         without = between;
       }
     }
-    start = {without == 0.0 ? 0.0 : torque, found->gear, one.positions[0].phase};
+    start = {without == 0.0 ? 0.0 : torque, of, one.positions[0].phase};
   }
   return start;
 }
@@ -114,7 +112,7 @@ EdgeContactStart edge_contact_start_near(const MeshAt& mesh_at, const FlankCondi
       if (k != 0) phases.push_back(phase - std::floor(phase));
     }
     std::ranges::sort(phases);
-    if (const auto beside = edge_contact_start(mesh_at(phases), condition, pinion_torque, start.torque)) start = *beside;
+    if (const auto beside = edge_contact_start(mesh_at(phases), condition, pinion_torque, start.gear, start.torque)) start = *beside;
   }
   return start;
 }

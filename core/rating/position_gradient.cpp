@@ -1,6 +1,7 @@
 #include "core/rating/position_gradient.hpp"
 
 #include <cassert>
+#include <variant>
 
 #include "core/base/natural_spline.hpp"
 #include "core/contact/gap/condition_gap.hpp"
@@ -131,6 +132,10 @@ PositionGradient position_gradient(const MeshModel& model, const FlankCondition&
   gradient.structural_deflection = at.influence * gradient.point_force;
   gradient.gap = loaded.gap_derivative;
   gradient.error = -gradient.gap;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    // What other forces of a unit move the gears by grows with the torque; it is part of the gap and no deviation of flanks.
+    if (std::holds_alternative<PinionTorque>(parameters[p])) gradient.error.col(static_cast<Eigen::Index>(p)).setZero();
+  }
   add_line_ends(model, condition, at, loaded, ends, parameters, gradient);
   for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
     const PerturbedPosition way(model, condition, loaded, position, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]), p);

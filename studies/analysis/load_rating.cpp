@@ -17,7 +17,7 @@ const ContactPeaks& LoadRater::peaks_of(const Case& load_case, ConditionPart par
   const FlankCondition condition = condition_of(load_case, part);
   const bool shafts = with_shafts(part);
   if (const Known* known = find(condition, load_case.pinion_torque, shafts)) return known->peaks;
-  const ContactPeaks peaks = locate_peaks(load_case.mesh_for(condition, shafts, {}), condition, load_case.pinion_torque);
+  const ContactPeaks peaks = locate_peaks(load_case.mesh_for(condition, shafts, {}), condition, load_case.pinion_torque, search);
   known_.push_back({condition, load_case.pinion_torque, shafts, peaks});
   return known_.back().peaks;
 }
@@ -35,7 +35,7 @@ void LoadRater::seek(const std::vector<Case>& cases) {
   }
   tbb::parallel_for(std::size_t{0}, of.size(), [&](std::size_t i) {
     Known& known = known_[first + i];
-    known.peaks = locate_peaks(of[i]->mesh_for(known.condition, known.shafts_deflect, {}), known.condition, known.torque);
+    known.peaks = locate_peaks(of[i]->mesh_for(known.condition, known.shafts_deflect, {}), known.condition, known.torque, search);
   });
 }
 

@@ -26,6 +26,7 @@ class LoadRater {
  public:
   /// The pair has shafts that deflect; else meshes with and without them are the same.
   bool has_shafts{false};
+  PeakSearch search{};
 
   /// A load case, and how its mesh is made.
   struct Case {

@@ -108,6 +108,8 @@ class StudyRun {
   bool needs_more_resolution();
   void leave_out_small_effects(const std::vector<DesignScene>& scenes);
   void forget_loaded();
+  /// Where contact begins on the tip edges of one gear; nothing where it does not.
+  std::optional<EdgeContactStart> edge_contact_of(const LoadedResult& loaded, Member gear);
   void find_edge_contact();
   void note_large_motions();
   void size_effects();

@@ -40,6 +40,10 @@ std::vector<LoadedResult*> rated_cases(StudyResults& results) {
   return rated;
 }
 
+/// For derivatives. Points of a line that is tilted against the flank leave contact one after the other within some 1e-3 base pitches, and derivatives change
+/// with each of them.
+constexpr PeakSearch sharp_peaks{.phase_tolerance = 2e-6, .value_tolerance = 0.0};
+
 }  // namespace
 
 void StudyRun::rate() {
@@ -58,6 +62,7 @@ void StudyRun::rate() {
     cases.push_back({mesh_for(loaded->torque), loaded->condition, loaded->torque, opening});
   }
   rater_.has_shafts = results_.shafts != nullptr;
+  if (!gradient_parameters().empty()) rater_.search = sharp_peaks;
   rater_.seek(cases);
   for (std::size_t i = 0; i < rated.size(); ++i) {
     rated[i]->rating = rater_.rate(cases[i], gradient_parameters());
@@ -72,29 +77,35 @@ void StudyRun::rate_life() {
   if (results_.life) results_.notes.insert(results_.notes.end(), results_.life->not_summed.begin(), results_.life->not_summed.end());
 }
 
+std::optional<EdgeContactStart> StudyRun::edge_contact_of(const LoadedResult& loaded, Member gear) {
+  const MeshModel& model = results_.models[loaded.model];
+  std::optional<EdgeContactStart> start;
+  // Half the points and positions do, unless no edge is reached with them.
+  const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
+  if (coarse != coarse_models_.end()) start = edge_contact_start(coarse->second, loaded.condition, loaded.torque, gear);
+  if (!start) start = edge_contact_start(model, loaded.condition, loaded.torque, gear);
+  // Between the positions an edge may touch earlier, or there alone.
+  if (loaded.resolved.extreme_mesh) {
+    const double known = start ? start->torque : std::numeric_limits<double>::infinity();
+    if (const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque, gear, known)) start = between;
+  }
+  if (!start || !results_.study.cycle.phases.empty()) return start;
+  const double spacing = 1.0 / static_cast<double>(results_.phases.size());
+  Quadrature quadrature = results_.study.fidelity.quadrature;
+  quadrature.intervals = std::max(1, quadrature.intervals / 2);
+  return edge_contact_start_near(mesh_at(loaded.condition, loaded.torque, true, {}, quadrature), loaded.condition, loaded.torque, *start, spacing);
+}
+
 void StudyRun::find_edge_contact() {
   const Stopwatch clock;
   tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
     LoadedResult& loaded = results_.loaded[i];
-    const MeshModel& model = results_.models[loaded.model];
     // The stress is NaN of sharp edges, and where the effect is off.
-    if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(model, loaded.cycle)) return;
-    // Half the points and positions do, unless no edge is reached with them.
-    const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
-    if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
-    if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(model, loaded.condition, loaded.torque);
-    // Between the positions an edge may touch earlier, or there alone.
-    if (loaded.resolved.extreme_mesh) {
-      const double known = loaded.edge_contact ? loaded.edge_contact->torque : std::numeric_limits<double>::infinity();
-      if (const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque, known))
-        loaded.edge_contact = between;
+    if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(results_.models[loaded.model], loaded.cycle)) return;
+    for (const Member gear : {Member::Pinion, Member::Wheel}) {
+      const std::optional<EdgeContactStart> start = edge_contact_of(loaded, gear);
+      if (start && (!loaded.edge_contact || start->torque < loaded.edge_contact->torque)) loaded.edge_contact = start;
     }
-    if (!loaded.edge_contact || !results_.study.cycle.phases.empty()) return;
-    const double spacing = 1.0 / static_cast<double>(results_.phases.size());
-    Quadrature quadrature = results_.study.fidelity.quadrature;
-    quadrature.intervals = std::max(1, quadrature.intervals / 2);
-    const MeshAt at = mesh_at(loaded.condition, loaded.torque, true, {}, quadrature);
-    loaded.edge_contact = edge_contact_start_near(at, loaded.condition, loaded.torque, *loaded.edge_contact, spacing);
   });
   if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
   results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});

@@ -46,12 +46,12 @@ void export_vtk(const Json& json, const fs::path& results, const fs::path& folde
 }
 
 /// Analyses the study once more: stiffness for small vibrations is a derivative that results have only where it was asked for.
-void export_dynamics(const Json& json, const fs::path& results, const fs::path& folder, std::vector<std::string>& notes) {
+void export_dynamics(const Json& json, const fs::path& results, StoredFlanks flanks, const fs::path& folder, std::vector<std::string>& notes) {
   Progress progress;
   const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
     progress.show(label, done, total, remark);
   };
-  DynamicsRun run = mesh_excitation(json, results.string(), report);
+  DynamicsRun run = mesh_excitation(json, results.string(), flanks, report);
   progress.finish();
   for (const NamedText& file : dynamics_files(run)) write_export(folder / file.name, file.text);
   notes.insert(notes.end(), run.notes.begin(), run.notes.end());
@@ -106,9 +106,10 @@ int export_command(const ExportCommand& options) {
   const Json json = whole_results(options.results);
   const fs::path folder = options.folder.empty() ? options.results : options.folder;
   make_folder(folder);
+  const StoredFlanks flanks = options.given ? StoredFlanks::Given : StoredFlanks::Final;
   std::vector<std::string> notes;
   if (options.rexs || options.rexsj || options.grid) {
-    const Study study = stored_study(json, results.string(), options.given ? StoredFlanks::Given : StoredFlanks::Final);
+    const Study study = stored_study(json, results.string(), flanks);
     if (options.rexs || options.rexsj) {
       rexs::ExportedStage stage = rexs::export_stage(study, {options.rexs_version, date_of(results)});
       if (options.rexs) write_export(folder / "stage.rexs", model_text(stage.model, rexs::Form::Xml));
@@ -122,7 +123,7 @@ int export_command(const ExportCommand& options) {
     }
   }
   if (options.vtk) export_vtk(json, results, folder / "vtk");
-  if (options.dynamics) export_dynamics(json, results, folder, notes);
+  if (options.dynamics) export_dynamics(json, results, flanks, folder, notes);
   flush_standard_output();
   for (const std::string& note : notes) spdlog::info("{}", note);
   return 0;

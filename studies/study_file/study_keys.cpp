@@ -22,7 +22,7 @@ using enum ValueKind;
 std::vector<SchemaKey> working_condition_rows() {
   return {
       {.path = "misalignment.crossing", .quantity = Quantity::SmallAngle, .range = misalignment_angle, .fallback = "0",
-       .meaning = "f_Sigma_beta, about the line of centres, out of plane; + closes the mesh at +z",
+       .meaning = "f_Sigma_beta, about the line of centres, out of plane; + closes the right flank at +z and opens the left one",
        .store = [](Scene& s, Member, const Value& v) { s.misalignment.crossing = v.number; }},
       {.path = "misalignment.intersecting", .quantity = Quantity::SmallAngle, .range = misalignment_angle,
        .fallback = "0", .meaning = "f_Sigma_delta, in the plane of the axes; + opens the mesh at +z",

@@ -11,7 +11,6 @@
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/version.hpp"
-#include "studies/study_file/stored_study.hpp"
 #include "studies/study_file/study_file.hpp"
 
 namespace flankwright::studies {
@@ -23,12 +22,13 @@ constexpr int positions_at_a_time = 64;   ///< of a revolution, so that memory d
 constexpr int harmonic_orders = 10;
 constexpr double si_stiffness = 1e3;  ///< N/m in one N/mm
 
-/// The study with its final flanks and the resolution that its results have.
-Study study_to_analyse(const Json& results) {
+/// The study at the resolution that its results have.
+/// @param modifications  of its flanks, in place of its own
+Study study_to_analyse(const Json& results, const std::vector<Override>& modifications) {
   const Json& used = results.at("used");
   std::vector<Override> overrides{
       {"task", "analyse"}, {"analyse.gradients", "[\"load.torque\"]"}, {"fidelity.effect_sizes", "off"}, {"cycle.peaks", "sampled"}};
-  for (Override& modification : final_modifications(results)) overrides.push_back(std::move(modification));
+  overrides.insert(overrides.end(), modifications.begin(), modifications.end());
   Study study = parse_study(results.at("study").get<std::string>(), results.at("file").get<std::string>(), overrides);
   study.expect.clear();
   study.fidelity.accuracy.reset();
@@ -219,16 +219,18 @@ std::vector<ExcitationHarmonic> excitation_harmonics(const std::vector<double>& 
   return harmonics;
 }
 
-DynamicsRun mesh_excitation(const Json& results, const std::string& file, const ProgressReport& progress) {
+DynamicsRun mesh_excitation(const Json& results, const std::string& file, StoredFlanks flanks, const ProgressReport& progress) {
   Study study;
+  std::vector<Override> modifications;
   try {
-    study = study_to_analyse(results);
+    if (flanks == StoredFlanks::Final) modifications = final_modifications(results);
+    study = study_to_analyse(results, modifications);
   } catch (const Json::exception& error) {
     throw InvalidInput(file, error.what(), "results.json of a study that this version has run");
   }
   StudyResults analysed = run_study(study, progress);
   if (analysed.loaded.empty()) throw InvalidInput("load.torque", "0", "a torque above 0: without load there is no mesh stiffness");
-  DynamicsRun run{analysed.pair, excitation_of(analysed), {}};
+  DynamicsRun run{analysed.pair, modifications.empty() ? "given" : "after", excitation_of(analysed), {}};
   const bool single_teeth = std::ranges::any_of(
       study.scenes, [](const Scene& scene) { return has_single_teeth(scene.error.pinion) || has_single_teeth(scene.error.wheel); });
   if (single_teeth) {
@@ -240,7 +242,7 @@ DynamicsRun mesh_excitation(const Json& results, const std::string& file, const 
 }
 
 std::vector<NamedText> dynamics_files(const DynamicsRun& run) {
-  Json json{{"version", version()}, {"pair", pair_json(run.pair)}};
+  Json json{{"version", version()}, {"design", run.design}, {"pair", pair_json(run.pair)}};
   json["cases"] = list(run.cases, [&](const MeshExcitation& of) { return case_json(of, run.pair); });
   std::vector<NamedText> files{
       {"dynamics.json", json.dump(1) + "\n"}, {"dynamics-cycle.csv", positions_csv(run, false)}, {"dynamics-harmonics.csv", harmonics_csv(run)}};

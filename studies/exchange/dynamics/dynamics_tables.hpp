@@ -6,6 +6,7 @@
 #include "studies/analysis/study_results.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/base/results_folder.hpp"
+#include "studies/study_file/stored_study.hpp"
 
 namespace flankwright::studies {
 
@@ -27,17 +28,18 @@ struct MeshExcitation {
 
 struct DynamicsRun {
   GearPair pair;
+  std::string design;  ///< whose flanks: "after" an optimisation, or as "given"
   std::vector<MeshExcitation> cases;
   std::vector<std::string> notes;
 };
 
-/// Analyses a study that has run once more, with its final flanks, at the resolution that it ended with, and with tangent stiffness. Over one wheel
+/// Analyses a study that has run once more, with its final flanks or with those that it gives, at the resolution that it ended with, and with tangent stiffness. Over one wheel
 /// revolution, at 16 positions a pitch, where teeth of a gear have errors of their own.
 ///
 /// @param results  whole_results()
 /// @param file     their path, for messages
 /// @throws InvalidInput where it is none of this program's, of an older version, of a study without torque or with explicit phases
-DynamicsRun mesh_excitation(const Json& results, const std::string& file, const ProgressReport& progress = {});
+DynamicsRun mesh_excitation(const Json& results, const std::string& file, StoredFlanks flanks, const ProgressReport& progress = {});
 
 /// One order of the mesh frequency: amplitude * cos(2 pi order phase + angle).
 struct ExcitationHarmonic {

@@ -13,7 +13,7 @@ task = "analyse"
 
   static constexpr std::string_view tail = R"(
 [misalignment]
-crossing = 1                         # arcmin, out of the plane of the axes; + closes the mesh at +z
+crossing = 1                         # arcmin, out of the plane of the axes; + closes the right flank at +z
 # intersecting = 1                   # arcmin, in the plane of the axes; + opens the mesh at +z
 # centre_distance = 0.05             # mm, + apart
 # axial_offset = 0.5                 # mm, wheel towards +z

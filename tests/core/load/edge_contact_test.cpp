@@ -236,27 +236,41 @@ TEST_CASE("Without relief edges carry the highest stress of a spur pair, and som
   CHECK(some.edge_stress < none.edge_stress);
 }
 
+namespace {
+
+/// Of both gears.
+std::optional<EdgeContactStart> earliest_start(const MeshModel& model, const FlankCondition& condition) {
+  std::optional<EdgeContactStart> earliest;
+  for (const Member gear : {Member::Pinion, Member::Wheel}) {
+    const auto start = edge_contact_start(model, condition, torque, gear);
+    if (start && (!earliest || start->torque < earliest->torque)) earliest = start;
+  }
+  return earliest;
+}
+
+}  // namespace
+
 TEST_CASE("The torque at which edge contact begins parts torques with and without", "[core][rating][edge]") {
   const GearPair gears = rounded_pair(0, 0.1);
   const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(32)});
   const FlankCondition condition = relieved(8 * units::um);
-  const auto start = edge_contact_start(model, condition, torque);
+  const auto start = earliest_start(model, condition);
   REQUIRE(start);
   CHECK(start->torque > 0.0);
   CHECK(start->torque < torque);
   const auto edge_stress = [&](double at) { return summarise(model, analyse_cycle(model, condition, at)).edge_stress; };
   CHECK(edge_stress(start->torque) > 0.0);
   CHECK(edge_stress(start->torque - 1.1e-3 * torque) == 0.0);  // sought to a thousandth of the torque
-  CHECK_FALSE(edge_contact_start(model, relieved(60 * units::um), torque));
+  CHECK_FALSE(earliest_start(model, relieved(60 * units::um)));
   // Without relief the next pair touches on an edge at any load, at the phase of its entry; the nearest position is a little off.
-  CHECK(edge_contact_start(model, relieved(0.0), torque)->torque < 0.01 * torque);
+  CHECK(earliest_start(model, relieved(0.0))->torque < 0.01 * torque);
 }
 
 TEST_CASE("Between few mesh positions the torque at which edge contact begins is that of many", "[core][rating][edge]") {
   const GearPair gears = rounded_pair(0, 0.1);
   const FlankCondition condition = relieved(8 * units::um);
   const MeshAt at = [&](const std::vector<double>& phases) { return mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, phases}); };
-  const auto start = [&](int positions) { return edge_contact_start(at(equally_spaced_phases(positions)), condition, torque).value(); };
+  const auto start = [&](int positions) { return earliest_start(at(equally_spaced_phases(positions)), condition).value(); };
   constexpr double sought = 2e-3 * torque;
   for (const int positions : {16, 32}) {
     CAPTURE(positions);
@@ -275,7 +289,7 @@ TEST_CASE("The torque at which contact reaches an edge goes to that of the sharp
     const LoadedCycle cycle = analyse_cycle(model, condition, torque);
     CHECK(reaches_tip_edge(model, cycle));
     CHECK((summarise(model, cycle).edge_stress > 0.0) == (rounding > 0.0));  // no stress is known on a sharp edge
-    return edge_contact_start(model, condition, torque).value().torque;
+    return earliest_start(model, condition).value().torque;
   };
   constexpr double sought = 2e-3 * torque;  // to so much of the torque
   CHECK(std::abs(start(1e-4) - start(0.0)) <= sought);

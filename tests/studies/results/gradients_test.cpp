@@ -5,6 +5,7 @@
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_texts.hpp"
 #include "tests/common/about.hpp"
 
@@ -253,6 +254,79 @@ TEST_CASE("Refined peaks and load factors have their derivatives", "[studies][gr
     CAPTURE(output.place, exact, together);
     CHECK(std::abs(exact - (read(up) - read(down)) / 2) <= kDifference * together + kLocated * output.value);
   }
+}
+
+TEST_CASE("Peaks on tilted spur flanks have their derivatives", "[studies][gradient]") {
+  // Points of a line that is tilted against the flank leave contact one after the other, and derivatives change with each of them.
+  const std::string text = R"([pair]
+normal_module = 3
+[pinion]
+teeth = 20
+face_width = 20
+profile_shift = 0.2
+modification = { lead_crowning = 6, lead_slope = 3, tip_relief = { amount = 15, height = 1.5 } }
+[wheel]
+teeth = 41
+face_width = 22
+profile_shift = 0.1
+modification = { tip_relief = { amount = 12, height = 1.2 } }
+[misalignment]
+mesh_misalignment = 5
+[load]
+torque = 200
+[fidelity]
+compliance = "thin_slice"
+effect_sizes = "off"
+quadrature = { rule = "graded", intervals = 8 }
+[cycle]
+positions = 16
+)";
+  const auto at = [&](double centre_distance, const char* gradients) {
+    return json::parse(
+               results_json(run_study(parse_study(
+                   text, "spur.toml", {{"misalignment.centre_distance", std::to_string(centre_distance)}, {"analyse.gradients", gradients}}))))
+        .at("loaded")
+        .at(0);
+  };
+  constexpr double step = 0.02;  // mm: the search of the peaks is a thousandth of what it changes
+  const char* const by_distance = "[\"misalignment.centre_distance\"]";
+  const json here = at(0.0, by_distance), apart = at(step, by_distance), together = at(-step, by_distance);
+  std::vector<Differentiated> outputs;
+  for (const char* of : {"peaks", "load_factors"}) {
+    pair_up(here.at("summary").at(of).at("without_spikes"), here.at("gradients").at("summary").at(of).at("without_spikes"),
+            std::string("/summary/") + of + "/without_spikes", outputs);
+  }
+  CHECK(outputs.size() >= 4);
+  constexpr double curvature = 0.02;  // step^2 times it
+  for (const Differentiated& output : outputs) {
+    const auto read = [&](const json& result) { return result.at(json::json_pointer(output.place)).get<double>(); };
+    const double difference = (read(apart) - read(together)) / (2.0 * step), exact = output.derivatives.at(0).get<double>();
+    CAPTURE(output.place, exact, difference);
+    CHECK(std::abs(exact - difference) <= curvature * std::abs(difference) + 1e-4 * output.value);
+  }
+}
+
+TEST_CASE("What a unit's other forces move grows the gap with the torque, and no deviation of the flanks", "[studies][gradient][unit]") {
+  const auto at = [](const char* torque) {
+    return json::parse(results_json(run_study(parse_study(small::unit_pair() + small::unit(), "unit.toml",
+                                                          {{"load.torque", torque}, {"analyse.gradients", "[\"load.torque\"]"}}))))
+        .at("loaded")
+        .at(0);
+  };
+  const json less = at("300"), more = at("301");
+  double largest_gap = 0.0, largest_error = 0.0;
+  for (const json& position : less.at("gradients").at("cycle")) {
+    for (const json& tooth : position.at("teeth")) {
+      for (const json& point : tooth.at("points")) {
+        largest_gap = std::max(largest_gap, std::abs(point.at("gap_um").at(0).get<double>()));
+        largest_error = std::max(largest_error, std::abs(point.at("error_um").at(0).get<double>()));
+      }
+    }
+  }
+  CHECK(largest_gap > 1e-3);
+  CHECK(largest_error == 0.0);
+  const json::json_pointer first("/cycle/0/teeth/0/points/0/error_um");
+  CHECK(less.at(first) == more.at(first));
 }
 
 TEST_CASE("A parameter without derivatives is refused", "[studies][gradient][input]") {

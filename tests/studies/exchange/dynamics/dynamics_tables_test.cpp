@@ -38,7 +38,7 @@ positions = 16
 
 DynamicsRun excitation(const std::string& more) {
   const StudyResults results = run_study(parse_study(study_text(more), "drive.toml"));
-  return mesh_excitation(results_document(results), "results.json");
+  return mesh_excitation(results_document(results), "results.json", StoredFlanks::Final);
 }
 
 double te_at(const std::string& more, const std::string& torque) {
@@ -56,7 +56,7 @@ double force_at(const std::string& torque) {
 
 TEST_CASE("The excitation has the transmission error of the results and stiffness along the flank normal", "[studies][dynamics]") {
   const StudyResults results = run_study(parse_study(study_text(""), "drive.toml"));
-  const DynamicsRun run = mesh_excitation(results_document(results), "results.json");
+  const DynamicsRun run = mesh_excitation(results_document(results), "results.json", StoredFlanks::Final);
   REQUIRE(run.cases.size() == 1);
   const MeshExcitation& of = run.cases.front();
   REQUIRE(of.cycle.size() == 16);
@@ -121,11 +121,11 @@ TEST_CASE("Harmonics are those of a known sum of cosines", "[studies][dynamics]"
 }
 
 TEST_CASE("What has no excitation is refused with the reason", "[studies][dynamics]") {
-  CHECK_THROWS_AS(mesh_excitation(Json::object(), "results.json"), InvalidInput);
+  CHECK_THROWS_AS(mesh_excitation(Json::object(), "results.json", StoredFlanks::Final), InvalidInput);
   const StudyResults unloaded = run_study(parse_study(study_text(""), "drive.toml", {{"load.torque", "0"}}));
-  CHECK_THROWS_AS(mesh_excitation(results_document(unloaded), "results.json"), InvalidInput);
+  CHECK_THROWS_AS(mesh_excitation(results_document(unloaded), "results.json", StoredFlanks::Final), InvalidInput);
   const StudyResults phases = run_study(parse_study(study_text(""), "drive.toml", {{"cycle.phases", "[0, 0.5]"}}));
-  CHECK_THROWS_AS(mesh_excitation(results_document(phases), "results.json"), InvalidInput);
+  CHECK_THROWS_AS(mesh_excitation(results_document(phases), "results.json", StoredFlanks::Final), InvalidInput);
 }
 
 }  // namespace flankwright::studies

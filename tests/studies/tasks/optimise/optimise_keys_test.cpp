@@ -4,6 +4,7 @@
 
 #include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/base/json_format.hpp"
+#include "studies/exchange/dynamics/dynamics_tables.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/stored_study.hpp"
@@ -253,6 +254,19 @@ TEST_CASE("Exports have the modifications that are tied to the variables", "[stu
   const Study stored = stored_study(json::parse(results_json(results)), "results.json", StoredFlanks::Final);
   CHECK(stored.modification.wheel.lead_crowning == Approx(tied).epsilon(1e-12));  // round-off of the file's units
   CHECK(stored_study(json::parse(results_json(results)), "results.json", StoredFlanks::Given).modification.wheel.lead_crowning == 0.0);
+  // What excites the gears is that of the flanks asked for.
+  const Json document = json::parse(results_json(results));
+  const auto mean_te = [&](StoredFlanks flanks, const char* design) {
+    const DynamicsRun run = mesh_excitation(document, "results.json", flanks);
+    CHECK(run.design == (flanks == StoredFlanks::Given ? "given" : "after"));
+    double sum = 0.0;
+    for (const MeshExcitation::Position& at : run.cases.at(0).cycle) sum += at.transmission_error;
+    const auto shown = std::ranges::find(results.loaded, design, &LoadedResult::design);
+    REQUIRE(shown != results.loaded.end());
+    CHECK(sum / static_cast<double>(run.cases[0].cycle.size()) == Approx(shown->cycle.transmission_error().mean()).epsilon(1e-9));  // solver
+    return sum;
+  };
+  CHECK(mean_te(StoredFlanks::Given, "before") != mean_te(StoredFlanks::Final, "after"));
 }
 
 }  // namespace flankwright::studies
