@@ -104,8 +104,9 @@ std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const
 
 EdgeContactStart edge_contact_start_near(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, EdgeContactStart start,
                                          double spacing) {
-  constexpr int turns = 2, parts = 4;
-  for (int turn = 0; turn < turns; ++turn, spacing /= parts) {
+  constexpr int parts = 4;
+  constexpr double close = 1.0 / 512.0;  // base pitches: phases lie closer than that in the end
+  for (; spacing > close; spacing /= parts) {
     std::vector<double> phases;
     for (int k = 1 - parts; k < parts; ++k) {
       const double phase = start.phase + spacing * k / parts;

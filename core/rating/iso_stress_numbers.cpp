@@ -17,7 +17,8 @@ double contact_ratio_factor(const GearPair& pair) {
   return std::sqrt((4.0 - alpha) / 3.0 * (1.0 - beta) + beta / alpha);
 }
 
-/// Z_B or Z_D: from the pitch point to the inner point of single pair contact of the gear [ISO 6336-2, 6.2].
+/// Z_B or Z_D: from the pitch point to the inner point of single pair contact of the gear [ISO 6336-2, 6.2]. The auxiliary factor of the edition of 2019 for helical
+/// gears, f_ZCa, is 1.
 double single_pair_factor(const GearPair& pair, Member member) {
   const Member mate = member == Member::Pinion ? Member::Wheel : Member::Pinion;
   const auto tip = [&](Member m) { return std::sqrt(std::pow(pair[m].tip_form_radius / pair[m].base_radius, 2) - 1.0); };

@@ -80,17 +80,20 @@ void StudyRun::rate_life() {
 std::optional<EdgeContactStart> StudyRun::edge_contact_of(const LoadedResult& loaded, Member gear) {
   const MeshModel& model = results_.models[loaded.model];
   std::optional<EdgeContactStart> start;
+  double spacing = 2.0 / static_cast<double>(results_.phases.size());
   // Half the points and positions do, unless no edge is reached with them.
   const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
   if (coarse != coarse_models_.end()) start = edge_contact_start(coarse->second, loaded.condition, loaded.torque, gear);
-  if (!start) start = edge_contact_start(model, loaded.condition, loaded.torque, gear);
+  if (!start) {
+    start = edge_contact_start(model, loaded.condition, loaded.torque, gear);
+    spacing *= 0.5;
+  }
   // Between the positions an edge may touch earlier, or there alone.
   if (loaded.resolved.extreme_mesh) {
     const double known = start ? start->torque : std::numeric_limits<double>::infinity();
     if (const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque, gear, known)) start = between;
   }
   if (!start || !results_.study.cycle.phases.empty()) return start;
-  const double spacing = 1.0 / static_cast<double>(results_.phases.size());
   Quadrature quadrature = results_.study.fidelity.quadrature;
   quadrature.intervals = std::max(1, quadrature.intervals / 2);
   return edge_contact_start_near(mesh_at(loaded.condition, loaded.torque, true, {}, quadrature), loaded.condition, loaded.torque, *start, spacing);
