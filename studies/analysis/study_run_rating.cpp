@@ -106,6 +106,7 @@ void StudyRun::find_edge_contact() {
     // The stress is NaN of sharp edges, and where the effect is off.
     if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(results_.models[loaded.model], loaded.cycle)) return;
     for (const Member gear : {Member::Pinion, Member::Wheel}) {
+      if (loaded.edge_contact && loaded.edge_contact->torque == 0.0) break;
       const std::optional<EdgeContactStart> start = edge_contact_of(loaded, gear);
       if (start && (!loaded.edge_contact || start->torque < loaded.edge_contact->torque)) loaded.edge_contact = start;
     }
