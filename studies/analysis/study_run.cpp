@@ -341,18 +341,22 @@ void widen_edge_errors(const CycleErrors& stated, const CycleSummary& summary, c
 }  // namespace
 
 void StudyRun::hold_against_finer(std::size_t first) {
+  // Meshes beyond the finest that a run may take are large. The design before is known well enough without.
+  const bool is_finest = 2 * results_.study.fidelity.quadrature.intervals > AutomaticResolution{}.most_intervals;
   std::vector<HeldCase> cases;
-  for (std::size_t i = first; i < results_.loaded.size(); ++i) {
-    LoadedResult& loaded = results_.loaded[i];
+  std::vector<LoadedResult*> of;
+  for (LoadedResult& loaded : std::span(results_.loaded).subspan(first)) {
+    if (is_finest && loaded.design == "before") continue;
     // A search favours designs whose errors are in their favour. Its design is therefore held against every finer mesh that the search has made.
     cases.push_back({{loaded.scene, loaded.torque, &results_.models[loaded.model], &loaded.cycle, &loaded.resolved},
                      &loaded.condition,
                      &loaded.resolved,
                      loaded.design == "after",
                      loaded.compared_intervals});
+    of.push_back(&loaded);
   }
   hold_against_finer(cases);
-  for (std::size_t i = first; i < results_.loaded.size(); ++i) results_.loaded[i].compared_intervals = cases[i - first].compared_intervals;
+  for (std::size_t i = 0; i < of.size(); ++i) of[i]->compared_intervals = cases[i].compared_intervals;
 }
 
 void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
