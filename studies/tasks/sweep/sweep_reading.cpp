@@ -35,9 +35,10 @@ std::vector<const SchemaKey*> keys_of(StudyReading& reading, const Item& item) {
     return {};
   }
   if (!is_sweepable(*known->second)) {
-    reading.refuse(item.position, shown, item.node,
-                   "a sweep cannot vary it; allowed are load.torque, load.speed, twist_compensation and the numbers below misalignment, pinion.modification, "
-                   "wheel.modification, pinion.error and wheel.error");
+    reading.refuse(
+        item.position, shown, item.node,
+        "a sweep cannot vary it; allowed are load.torque, load.speed, twist_compensation and the numbers below misalignment, pinion.modification, "
+        "wheel.modification, pinion.error and wheel.error");
     return {};
   }
   return {known->second};
