@@ -86,16 +86,21 @@ void note_natural_twist(const Study& study, const GearPair& pair, Member m, std:
   notes.push_back(std::move(note));
 }
 
-/// Data of a process that it does not use.
-void note_unused_process_data(const Study& study, Member m, std::vector<std::string>& notes) {
-  const GrindingKind kind = study.modification[m].process.kind;
-  const std::string name = name_of(m);
-  const auto note = [&](const std::string& key, bool used) {
-    if (used || std::ranges::none_of(study.given, [&](const GivenValue& g) { return g.key == name + "." + key; })) return;
-    notes.push_back(fmt::format("{}.{} is not used: the process is \"{}\"", name, key, to_string(kind)));
+/// Keys of a study that act only beside others, which it does not give.
+void note_unused_keys(const Study& study, std::vector<std::string>& notes) {
+  const auto note = [&](const std::string& key, bool used, const std::string& why) {
+    if (used || std::ranges::none_of(study.given, [&](const GivenValue& g) { return g.key == key; })) return;
+    notes.push_back(fmt::format("{} is not used: {}", key, why));
   };
-  note("twist_compensation", kind == GrindingKind::GeneratingGrinding || kind == GrindingKind::FormGrinding);
-  note("grinding_wheel_diameter", kind == GrindingKind::FormGrinding);
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    const GrindingKind kind = study.modification[m].process.kind;
+    const std::string gear = std::string(name_of(m)) + ".", why = fmt::format("the process is \"{}\"", to_string(kind));
+    note(gear + "twist_compensation", kind == GrindingKind::GeneratingGrinding || kind == GrindingKind::FormGrinding, why);
+    note(gear + "grinding_wheel_diameter", kind == GrindingKind::FormGrinding, why);
+    note(gear + "meshes_per_revolution", !study.spectrum.empty(), "only a load spectrum has cycles");
+  }
+  const UnitData& unit = study.unit;
+  note("unit.reference_torque", !unit.meshes.empty() || !unit.loads.empty(), "the unit has neither meshes nor loads that grow with the torque");
 }
 
 /// What of a signal loads no tooth of this flank.
@@ -257,8 +262,8 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   if (study.task->add_notes != nullptr) study.task->add_notes(study, notes);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
-    note_unused_process_data(study, m, notes);
   }
+  note_unused_keys(study, notes);
   note_signal(study, notes);
   note_reversed_loads(study, notes);
   note_load_factors(study, notes);

@@ -25,3 +25,15 @@ TEST_CASE("A torque that no tooth bears is said to leave no small deflections", 
   CHECK(!is_said("300"));
   CHECK(is_said("1e7"));
 }
+
+TEST_CASE("A key that acts only beside others is said to be unused without them", "[studies][analysis]") {
+  const auto is_said = [](const std::string& study, const std::string& key, const std::string& value) {
+    const Json results = study_texts::results_of(study, {{key, value}});
+    return std::ranges::any_of(results.at("notes"),
+                               [&](const Json& note) { return note.get<std::string>().find(key + " is not used") != std::string::npos; });
+  };
+  const std::string alone = small::helical_pair("", "", "300"), in_unit = small::unit_pair() + small::unit();
+  CHECK(is_said(alone, "pinion.meshes_per_revolution", "2"));
+  CHECK(is_said(small::unit_pair(), "unit.reference_torque", "300"));
+  CHECK(!is_said(in_unit, "unit.reference_torque", "300"));
+}
