@@ -34,6 +34,6 @@ TEST_CASE("A key that acts only beside others is said to be unused without them"
   };
   const std::string alone = small::helical_pair("", "", "300"), in_unit = small::unit_pair() + small::unit();
   CHECK(is_said(alone, "pinion.meshes_per_revolution", "2"));
-  CHECK(is_said(small::unit_pair(), "unit.reference_torque", "300"));
+  CHECK(is_said(alone, "unit.reference_torque", "300"));
   CHECK(!is_said(in_unit, "unit.reference_torque", "300"));
 }
