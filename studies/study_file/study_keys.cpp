@@ -115,7 +115,7 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.effects = v.words;
        }},
       {.path = "fidelity.accuracy", .kind = Percentage, .range = above_zero(50.0), .fallback = "(none)",
-       .meaning = "\"1 %\": chooses compliance and gap that are not given, and refines quadrature and positions that are not: the cheapest whose estimated error in transmission error, its harmonics and peak contact stress is within it; the results have the estimates and their cost in `accuracy_choice`",
+       .meaning = "\"1 %\": chooses compliance and gap and refines quadrature and positions, as far as the study does not give them: the cheapest whose estimated error in transmission error, its harmonics and peak contact stress is within it; the results have the estimates and their cost in `accuracy_choice`",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fidelity.accuracy = v.number; }},
       {.path = "fidelity.effect_sizes", .kind = Word, .words = {"off", "estimated", "exact"}, .fallback = "\"estimated\"",
        .meaning = "what each effect does to transmission error and contact stress: to first order at a few positions, or by leaving it out at the study's resolution as well",

@@ -120,4 +120,27 @@ angle = 70
 )";
 }
 
+std::string tilted_spur_pair() {
+  return R"([pair]
+normal_module = 3
+[pinion]
+teeth = 20
+face_width = 20
+profile_shift = 0.2
+modification = { lead_crowning = 6, lead_slope = 3, tip_relief = { amount = 15, height = 1.5 } }
+[wheel]
+teeth = 41
+face_width = 22
+profile_shift = 0.1
+modification = { tip_relief = { amount = 12, height = 1.2 } }
+[misalignment]
+mesh_misalignment = 5
+[load]
+torque = 200
+[fidelity]
+compliance = "thin_slice"
+effect_sizes = "off"
+)";
+}
+
 }  // namespace flankwright::studies::small

@@ -22,4 +22,7 @@ std::string unit_pair();
 /// The unit around it: an input shaft, and a first stage on the pinion's shaft.
 std::string unit();
 
+/// A spur pair that meets tilted, by thin slices: points of its lines reach and leave contact one after the other.
+std::string tilted_spur_pair();
+
 }  // namespace flankwright::studies::small

@@ -221,6 +221,7 @@ void OptimiseSearch::take_better_usual_design(DesignProblem& problem, const Desi
   found.fine.seconds += clock.seconds();
   found.design.seconds = seconds + clock.seconds();
 }
+
 void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const DesignOptions& options, std::vector<double> by_intervals,
                                                   TwoLevelDesign& found) {
   constexpr int most_turns = 3;
@@ -243,9 +244,9 @@ void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const 
     if (!best || last < best->excess) best = Turn{found, problem.task(), last};
     DesignTask tighter = problem.task();
     if (!spare_limits(tighter.constraints, asked, found.design.after.constraint_values, excesses) || turn == most_turns) break;
-    const Eigen::VectorXd x = problem.scaled_design(exact_of(found).variables);
+    const Eigen::VectorXd x = start_at(problem, exact_of(found));
     problem = DesignProblem(tighter);
-    problem.set_start(x.cwiseMax(0.0).cwiseMin(1.0));
+    problem.set_start(x);
     go_on(problem, options, found);
     found.fine.seconds += clock.seconds();
     found.design.seconds = seconds + clock.seconds();

@@ -3,6 +3,7 @@
 
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_texts.hpp"
 
 using namespace flankwright;
@@ -51,32 +52,13 @@ TEST_CASE("An analysis knows the load on a tip edge to within 2 per cent of the 
     CHECK(std::abs(share - theirs.at("tip_edge_share").get<double>()) <= error + theirs.at("tip_edge_share_error").get<double>());
   }
 }
+
 TEST_CASE("The torque at which an edge is reached is that of many positions, whichever gear's edge comes first", "[studies][edge]") {
   // At few positions the wheel's edge seems to come first; the pinion's is reached earlier, between two of them.
-  const std::string text = R"([pair]
-normal_module = 3
-[pinion]
-teeth = 20
-face_width = 30
-profile_shift = 0.2
-modification = { lead_crowning = 6, lead_slope = 3, tip_relief = { amount = 15, height = 1.5 } }
-[wheel]
-teeth = 41
-face_width = 32
-profile_shift = 0.1
-modification = { profile_slope = 3, tip_relief = { amount = 12, height = 1.2 } }
-[misalignment]
-mesh_misalignment = 5
-[load]
-torque = 300
-[fidelity]
-compliance = "thin_slice"
-effect_sizes = "off"
-[cycle]
-peaks = "sampled"
-)";
   const auto start = [&](const char* positions) {
-    return run_study(parse_study(text, "spur.toml", {{"cycle.positions", positions}})).loaded.at(0).edge_contact.value();
+    const std::vector<Override> wider{{"pinion.face_width", "30"}, {"wheel.face_width", "32"},     {"wheel.modification.profile_slope", "3"},
+                                      {"load.torque", "300"},      {"cycle.peaks", "\"sampled\""}, {"cycle.positions", positions}};
+    return run_study(parse_study(small::tilted_spur_pair(), "spur.toml", wider)).loaded.at(0).edge_contact.value();
   };
   const EdgeContactStart few = start("32"), many = start("256");
   CHECK(few.gear == Member::Pinion);

@@ -258,29 +258,7 @@ TEST_CASE("Refined peaks and load factors have their derivatives", "[studies][gr
 
 TEST_CASE("Peaks on tilted spur flanks have their derivatives", "[studies][gradient]") {
   // Points of a line that is tilted against the flank leave contact one after the other, and derivatives change with each of them.
-  const std::string text = R"([pair]
-normal_module = 3
-[pinion]
-teeth = 20
-face_width = 20
-profile_shift = 0.2
-modification = { lead_crowning = 6, lead_slope = 3, tip_relief = { amount = 15, height = 1.5 } }
-[wheel]
-teeth = 41
-face_width = 22
-profile_shift = 0.1
-modification = { tip_relief = { amount = 12, height = 1.2 } }
-[misalignment]
-mesh_misalignment = 5
-[load]
-torque = 200
-[fidelity]
-compliance = "thin_slice"
-effect_sizes = "off"
-quadrature = { rule = "graded", intervals = 8 }
-[cycle]
-positions = 16
-)";
+  const std::string text = small::tilted_spur_pair() + "quadrature = { rule = \"graded\", intervals = 8 }\n[cycle]\npositions = 16\n";
   const auto at = [&](double centre_distance, const char* gradients) {
     return json::parse(
                results_json(run_study(parse_study(
