@@ -273,12 +273,13 @@ void StudyRun::analyse() {
 }
 
 void StudyRun::begin_coarsely() {
-  // An accuracy may be kept with less than what a study without one begins with.
+  // An accuracy of more than the usual one may be kept with less than what a study without one begins with.
   constexpr int fewest_intervals = 6, fewest_positions = 16;
   Fidelity& fidelity = results_.study.fidelity;
   Cycle& cycle = results_.study.cycle;
-  if (results_.fidelity_choice && fidelity.automatic_intervals) fidelity.quadrature.intervals = fewest_intervals;
-  if (results_.fidelity_choice && cycle.automatic_positions) cycle.positions = fewest_positions;
+  const bool is_lax = results_.fidelity_choice && results_.fidelity_choice->accuracy > AutomaticResolution{}.accuracy;
+  if (is_lax && fidelity.automatic_intervals) fidelity.quadrature.intervals = fewest_intervals;
+  if (is_lax && cycle.automatic_positions) cycle.positions = fewest_positions;
   set_phases();
 }
 
