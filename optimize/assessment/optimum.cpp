@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "optimize/design/search/local_model.hpp"
+
 namespace flankwright {
 
 namespace {
@@ -62,33 +64,9 @@ std::vector<Optimum::Sum> sums_of(const DesignProblem& problem, const Optimality
   return sums;
 }
 
-std::vector<Sensitivity> sensitivities_of(const DesignTask& task, const LocalModel& model, const std::vector<AssessedParameter>& parameters,
-                                          const std::vector<double>& values, const Eigen::VectorXd& lagrangian) {
-  std::vector<Sensitivity> sensitivities;
-  const auto m = static_cast<Eigen::Index>(parameters.size());
-  const double now = model.objective(Eigen::VectorXd::Zero(m));
-  for (Eigen::Index p = 0; p < m; ++p) {
-    Sensitivity found{.parameter = parameters[static_cast<std::size_t>(p)]};
-    const Eigen::VectorXd step = Eigen::VectorXd::Unit(m, p);
-    found.less = model.objective(-step) - now;
-    found.more = model.objective(step) - now;
-    if (const int i = found.parameter.variable; i >= 0) {
-      const DesignVariable& v = task.variables[static_cast<std::size_t>(i)];
-      const double slack = Optimum::at_bound * (v.upper - v.lower), value = values[static_cast<std::size_t>(i)];
-      found.can_less = value - found.parameter.inside >= v.lower - slack;
-      found.can_more = value + found.parameter.inside <= v.upper + slack;
-    } else {
-      found.optimised_anew = lagrangian[p];
-    }
-    sensitivities.push_back(found);
-  }
-  return sensitivities;
-}
-
 }  // namespace
 
-Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const LocalModel& model,
-                     const std::vector<AssessedParameter>& parameters, const std::vector<double>& values) {
+Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const std::vector<double>& values) {
   const DesignTask& task = problem.task();
   const double scale = optimality.objective_scale;
   constexpr double per_cent = 0.01;
@@ -110,7 +88,6 @@ Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality,
   std::stable_sort(optimum.constraints.begin(), optimum.constraints.end(), by_gain);
   std::stable_sort(optimum.sums.begin(), optimum.sums.end(), by_gain);
   std::stable_sort(optimum.objectives.begin(), optimum.objectives.end(), by_gain);
-  optimum.sensitivities = sensitivities_of(task, model, parameters, values, scale * model.lagrangian_slope());
   return optimum;
 }
 

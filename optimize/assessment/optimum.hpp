@@ -1,20 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "optimize/design/search/local_model.hpp"
+#include "optimize/design/search/optimality.hpp"
 
 namespace flankwright {
-
-/// Sensitivity of the objective to one parameter, outside units.
-struct Sensitivity {
-  AssessedParameter parameter;
-  double less{not_given}, more{not_given};  ///< change by one step down and up, all else held
-  bool can_less{true}, can_more{true};      ///< false: the step would leave the bounds of a design variable
-  /// Tolerances only: change by one step up where the design is optimised anew, to first order: the slope of the Lagrangian.
-  double optimised_anew{not_given};
-};
 
 /// The active constraints of an optimum in terms of the task: the multipliers of first_order_optimality(), which
 /// balance the gradients of all that is active, whatever the solver was,
@@ -58,8 +48,7 @@ struct Optimum {
   /// Accuracy of the optimum's objective [outside units]: a smaller gain is treated as zero. The residual, or `asked` where
   /// it is smaller, of the start's objective.
   double resolution{not_given};
-  double value{not_given};                 ///< objective of the design [outside units]
-  std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters
+  double value{not_given};  ///< objective of the design [outside units]
 
   static constexpr double asked = 1e-6;     ///< first-order residual that is as good as none
   static constexpr double at_bound = 1e-4;  ///< a variable within this fraction of its range is at its bound
@@ -67,10 +56,7 @@ struct Optimum {
 
 /// @param problem     of a single objective; of a list the last one's, with the limits of those before it
 /// @param optimality  of the design
-/// @param model       about the design, with what is active there
-/// @param parameters  as the model has them, the design variables among them
 /// @param values      of the design variables [mm; parabolic_te 1/rad], in their order
-Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const LocalModel& model,
-                     const std::vector<AssessedParameter>& parameters, const std::vector<double>& values);
+Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const std::vector<double>& values);
 
 }  // namespace flankwright

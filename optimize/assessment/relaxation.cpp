@@ -103,7 +103,7 @@ Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modificat
   const auto assessed = static_cast<Eigen::Index>(parameters.size());
   for (const UnvariedAmount& amount : unvaried) parameters.push_back(amount.parameter);
   const LocalModel model(by_excess, with_extents, parameters, optimality.active);
-  const Optimum optimum = find_optimum(by_excess, optimality, model, parameters, values);
+  const Optimum optimum = find_optimum(by_excess, optimality, values);
 
   Relaxation found;
   found.excess = by_excess.objective(by_excess.analyse(x, false));

@@ -124,6 +124,16 @@ std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const L
   return leading;
 }
 
+PeakCandidate counterpart(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
+  const DesignOutput& row = design_output(term.output);
+  if (row.at_points == nullptr && row.candidates == nullptr) return candidate;
+  constexpr double near = 0.2;
+  constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+  const std::vector<PeakCandidate> leading = leading_candidates(term, scene, near, all);
+  const auto same = std::ranges::find(leading, candidate.position, &PeakCandidate::position);
+  return same == leading.end() ? leading.front() : *same;
+}
+
 SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
   check_usable(term, scene);
   if (term.reciprocal) {

@@ -25,6 +25,11 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene
 /// @param margin  0 keeps the peak only; of a reciprocal < 1
 std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const LoadedScene& scene, double margin, std::size_t most);
 
+/// The candidate that takes a candidate's place in another mesh at the same positions. A harmonic's direction and a difference of positions stay. Of
+/// points, which differ between meshes, it is the leading one at that position, or of all positions where none there comes near the output's value.
+/// @param scene  of the other mesh
+PeakCandidate counterpart(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene);
+
 /// Value and exact gradient of one candidate; the gradient stays empty where the cycle carries no derivatives. At a harmonic's
 /// zero, where the amplitude (whole_output) has a kink, its gradient is 0, one of its subgradients.
 SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene);

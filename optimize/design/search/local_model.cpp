@@ -48,7 +48,8 @@ void scale_derivatives(LoadedCycle& cycle, const Eigen::VectorXd& by) {
   scale(cycle.face_width_change);
 }
 
-/// The output that a row with a candidate is about: of what is minimised, of a bounded objective, or of a bounded output.
+}  // namespace
+
 const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
   const auto index = static_cast<std::size_t>(row.index);
   if (row.kind == EpigraphRow::Kind::OutputBound) return task.constraints[index].output;
@@ -56,8 +57,6 @@ const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
   if (block >= minimised) return task.objective_bounds[block - minimised].objective.terms[index];
   return task.scalarisation.empty() ? task.objective[index] : task.scalarisation[block].objective.terms[index];
 }
-
-}  // namespace
 
 AssessedParameter parameter_of_variable(const DesignTask& task, int variable, double step) {
   const DesignVariable& v = task.variables[static_cast<std::size_t>(variable)];
@@ -74,8 +73,8 @@ std::vector<AssessedParameter> variable_parameters(const DesignTask& task) {
   return parameters;
 }
 
-std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
-  std::vector<AssessedParameter> parameters = variable_parameters(task);
+std::vector<AssessedParameter> tolerance_parameters() {
+  std::vector<AssessedParameter> parameters;
   const auto misalignment = [&](const char* name, double step, const char* unit, MisalignmentParameter parameter, double inside) {
     parameters.push_back({std::string("misalignment.") + name, step, unit, parameter, inside});
   };
@@ -91,6 +90,12 @@ std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
   return parameters;
 }
 
+std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
+  std::vector<AssessedParameter> parameters = variable_parameters(task);
+  for (AssessedParameter& tolerance : tolerance_parameters()) parameters.push_back(std::move(tolerance));
+  return parameters;
+}
+
 double LocalModel::Peak::at(const Eigen::VectorXd& steps) const {
   double largest = -INFINITY;
   for (const Candidate& c : candidates) largest = std::max(largest, c.value + c.slope.dot(steps));
@@ -102,8 +107,10 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
     : task_(problem.task()),
       parameters_(static_cast<int>(parameters.size())),
       measures_(task_.scenes.size()),
-      constraints_(task_.constraints.size(), std::vector<Peak>(task_.scenes.size())) {
-  std::vector<Eigen::VectorXd> lagrangian(task_.scenes.size(), Eigen::VectorXd::Zero(parameters_));
+      constraints_(task_.constraints.size(), std::vector<Peak>(task_.scenes.size())),
+      multipliers_(std::ssize(active)),
+      active_slopes_(Eigen::MatrixXd::Zero(std::ssize(active), parameters_)) {
+  for (Eigen::Index a = 0; a < std::ssize(active); ++a) multipliers_[a] = active[static_cast<std::size_t>(a)].multiplier;
   std::vector<MeshParameter> of_mesh;
   for (const AssessedParameter& p : parameters) of_mesh.push_back(p.parameter);
   for (const LinkingConstraint& link : task_.links) of_mesh.push_back(GearParameter{link.linked.member, link.linked.parameter});
@@ -151,14 +158,13 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
       peak = peak_of(bound.output, sign / std::abs(bound.limit()), -sign * bound.limit() / std::abs(bound.limit()));
       if (bound.one_suffices()) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
     }
-    for (const ActiveBound& felt : active) {
+    for (Eigen::Index a = 0; a < std::ssize(active); ++a) {
+      const ActiveBound& felt = active[static_cast<std::size_t>(a)];
       if (felt.row.scene != s || felt.by_output == 0.0) continue;
       const SmoothValue found = candidate_value(term_of(felt.row, task_), felt.row.candidate, scene);
-      lagrangian[static_cast<std::size_t>(s)] += felt.multiplier * felt.by_output * slope_of(found.gradient);
+      active_slopes_.row(a) = felt.by_output * slope_of(found.gradient).transpose();
     }
   });
-  lagrangian_slope_ = Eigen::VectorXd::Zero(parameters_);
-  for (const Eigen::VectorXd& of_scene : lagrangian) lagrangian_slope_ += of_scene;
 }
 
 std::vector<double> LocalModel::scene_measures(const Eigen::VectorXd& steps) const {

@@ -29,13 +29,18 @@ double assessment_step(const std::string& unit);
 /// 0.01 arcsec/deg^2.
 std::vector<AssessedParameter> variable_parameters(const DesignTask& task);
 
-/// variable_parameters(), then deviations of housing and workshop, the same in
-/// every scene: misalignment 1 um, crossing and intersecting 0.1 arcmin, centre distance 0.01 mm, helix and profile
-/// slope of either gear 1 um, torque 1 %.
+/// Deviations of housing and workshop, the same in every scene: misalignment 1 um, crossing and intersecting 0.1 arcmin, centre
+/// distance 0.01 mm, helix and profile slope of either gear 1 um, torque 1 %.
 ///
 /// An error of helix or profile slope is the negative of that modification; the profile's differs by the same shift on all teeth,
 /// reference for pitch circle, which moves the transmission error's mean only.
+std::vector<AssessedParameter> tolerance_parameters();
+
+/// variable_parameters(), then tolerance_parameters().
 std::vector<AssessedParameter> assessed_parameters(const DesignTask& task);
+
+/// The output that a row with a candidate is about: of what is minimised, of a bounded objective, or of a bounded output.
+const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task);
 
 /// Objective and bounded outputs of one design to first order. Each peak is the largest of its leading candidates,
 /// which have exact derivatives,
@@ -59,7 +64,7 @@ class LocalModel {
     double at(const Eigen::VectorXd& steps) const;
   };
 
-  /// @param active  what has a multiplier at this design, for lagrangian_slope()
+  /// @param active  what has a multiplier at this design, for active_slopes() and lagrangian_slope()
   /// @throws std::runtime_error where a scene's load distribution does not converge
   LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters,
              const std::vector<ActiveBound>& active = {});
@@ -77,15 +82,19 @@ class LocalModel {
   double objective(const Eigen::VectorXd& steps) const;
   /// Largest excess of the bounded outputs over their limits [-]; 0 where all are kept.
   double violation(const Eigen::VectorXd& steps) const;
-  /// Change of the Lagrangian's outputs by a step of each parameter, sum of multiplier * by_output * slope [in Optimality::objective_scale].
-  const Eigen::VectorXd& lagrangian_slope() const { return lagrangian_slope_; }
+  /// Changes of what has a multiplier by a step of each parameter, by_output * slope [in Optimality::objective_scale]: a row for each of `active`, 0
+  /// where it has no output.
+  const Eigen::MatrixXd& active_slopes() const { return active_slopes_; }
+  /// Change of the Lagrangian's outputs by a step of each parameter: the sum of these rows, each times its multiplier.
+  Eigen::VectorXd lagrangian_slope() const { return active_slopes_.transpose() * multipliers_; }
 
  private:
   const DesignTask& task_;
   int parameters_{0};
   std::vector<std::vector<Peak>> measures_;     ///< [scene][term]
   std::vector<std::vector<Peak>> constraints_;  ///< [constraint][scene]
-  Eigen::VectorXd lagrangian_slope_;
+  Eigen::VectorXd multipliers_;
+  Eigen::MatrixXd active_slopes_;
 };
 
 }  // namespace flankwright

@@ -7,6 +7,7 @@
 #include "optimize/assessment/optimum.hpp"
 #include "optimize/assessment/relaxation.hpp"
 #include "optimize/assessment/rules_of_thumb.hpp"
+#include "optimize/assessment/sensitivity.hpp"
 #include "optimize/assessment/usual_signs.hpp"
 #include "optimize/assessment/validation.hpp"
 #include "optimize/assessment/variant_search.hpp"
@@ -29,12 +30,13 @@ enum class AssessedDesign { Shown, BeforeRounding, BeforeChoices, WithoutScatter
 
 /// Assessment of an optimum: comparison with other designs, validation on fresh draws, and its active conditions.
 struct Assessment {
-  std::optional<RuleBasis> basis;        ///< of the rules, where they were asked for
-  std::vector<ComparedDesign> rules;     ///< empty: not asked for
-  std::vector<VariantSearch> variants;   ///< one a placement of the levels; empty: not asked for
-  std::optional<Validation> validation;  ///< of the design that is shown; none: not asked for
-  AssessedDesign is_of{};                ///< what the optimum and its usual signs are of
-  std::optional<Optimum> optimum;        ///< of the design before rounding and scatter; none where it cannot be analysed
+  std::optional<RuleBasis> basis;          ///< of the rules, where they were asked for
+  std::vector<ComparedDesign> rules;       ///< empty: not asked for
+  std::vector<VariantSearch> variants;     ///< one a placement of the levels; empty: not asked for
+  std::optional<Validation> validation;    ///< of the design that is shown; none: not asked for
+  AssessedDesign is_of{};                  ///< what the optimum and its usual signs are of
+  std::optional<Optimum> optimum;          ///< of the design before rounding and scatter; none where it cannot be analysed
+  std::vector<Sensitivity> sensitivities;  ///< of that optimum
   std::optional<DesignTask>
       judged;  ///< the problem of the optimum under the limits asked for: the task, or for a list of objectives the last one under limits on those before it
   std::optional<UsualSigns> usual;       ///< where the optimum asks for what is seldom ground; none where it does not

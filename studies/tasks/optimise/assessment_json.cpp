@@ -150,7 +150,8 @@ Json relaxation_json(const Relaxation& relaxation, const DesignTask& task) {
 Json sensitivity_json(const Sensitivity& s) {
   Json json{{"name", s.parameter.name}, {"kind", s.parameter.variable >= 0 ? "variable" : "tolerance"},
             {"step", s.parameter.step}, {"unit", s.parameter.unit},
-            {"less", s.less},           {"more", s.more}};
+            {"less", s.less},           {"more", s.more},
+            {"intervals", s.intervals}};
   if (s.parameter.variable >= 0) {
     json["within_bounds"] = {{"less", s.can_less}, {"more", s.can_more}};
   } else {
@@ -208,7 +209,7 @@ void add_assessment(const Assessment& assessment, const DesignTask& task, const 
   optimise["governing"] = governing_json(*assessment.optimum, *assessment.judged);
   if (optimise.contains("assessed_design")) optimise["governing"]["design"] = optimise["assessed_design"];
   if (assessment.usual) optimise["usual_signs"] = usual_signs_json(*assessment.usual, *assessment.judged);
-  optimise["sensitivity"] = list(assessment.optimum->sensitivities, sensitivity_json);
+  optimise["sensitivity"] = list(assessment.sensitivities, sensitivity_json);
 }
 
 }  // namespace flankwright::studies

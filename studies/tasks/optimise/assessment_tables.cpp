@@ -20,11 +20,11 @@ std::string comparison_csv(const Assessment& assessment) {
   return csv;
 }
 
-std::string sensitivity_csv(const Optimum& optimum) {
-  std::string csv = "quantity,step,unit,less,more,more_optimised_anew\n";
-  for (const Sensitivity& s : optimum.sensitivities) {
+std::string sensitivity_csv(const std::vector<Sensitivity>& sensitivities) {
+  std::string csv = "quantity,step,unit,less,more,more_optimised_anew,intervals\n";
+  for (const Sensitivity& s : sensitivities) {
     const std::string anew = s.parameter.variable < 0 ? fmt::format("{}", s.optimised_anew) : "";
-    csv += fmt::format("{},{},{},{},{},{}\n", csv_field(s.parameter.name), s.parameter.step, s.parameter.unit, s.less, s.more, anew);
+    csv += fmt::format("{},{},{},{},{},{},{}\n", csv_field(s.parameter.name), s.parameter.step, s.parameter.unit, s.less, s.more, anew, s.intervals);
   }
   return csv;
 }
@@ -46,7 +46,7 @@ std::string validation_csv(const Validation& validation) {
 std::vector<NamedText> assessment_tables(const Assessment& assessment) {
   std::vector<NamedText> tables;
   if (!assessment.rules.empty() || !assessment.variants.empty()) tables.push_back({"comparison.csv", comparison_csv(assessment)});
-  if (assessment.optimum) tables.push_back({"sensitivity.csv", sensitivity_csv(*assessment.optimum)});
+  if (assessment.optimum) tables.push_back({"sensitivity.csv", sensitivity_csv(assessment.sensitivities)});
   if (assessment.validation) tables.push_back({"validation.csv", validation_csv(*assessment.validation)});
   return tables;
 }
