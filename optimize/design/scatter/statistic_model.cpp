@@ -185,7 +185,9 @@ std::vector<double> StatisticModel::statistic_weights(const std::vector<double>&
 
 void StatisticModel::smooth(int draws) {
   const double level = objective_.over.level;
-  band_ = objective_.over == Aggregate::Quantile ? std::min(std::sqrt(level * (1.0 - level) / draws), 0.5 * (1.0 - level)) : 0.0;
+  constexpr double standard_errors = 2.0, most_of_tail = 0.8;
+  const double apart = standard_errors * std::sqrt(level * (1.0 - level) / draws);
+  band_ = objective_.over == Aggregate::Quantile ? std::min(apart, most_of_tail * (1.0 - level)) : 0.0;
 }
 
 std::size_t StatisticModel::first(std::size_t draws) const {

@@ -39,8 +39,9 @@ class StatisticModel {
   const Objective& objective() const { return objective_; }
   /// Another statistic of the same outputs.
   void combine(const Aggregation& over) { objective_.over = over; }
-  /// Makes a quantile the mean of the quantiles of all levels that so many draws do not tell apart: within a standard error sqrt(p (1 - p) / draws) of its
-  /// own p, at most half of what lies beyond it. One draw has then a small weight, and a search finds less of what is only in its sample. With exact() the
+  /// Makes a quantile the mean of the quantiles of all levels that so many draws do not tell apart: within two standard errors sqrt(p (1 - p) / draws) of its
+  /// own p (95 % confidence), at most four fifths of what lies beyond it. One draw has then a small weight, and a search finds less of what is only in its
+  /// sample: a tail that rises steeply beyond p has to stay beyond the whole band. With exact() the
   /// statistic is the quantile itself again.
   void smooth(int draws);
   void exact() { band_ = 0.0; }
