@@ -71,6 +71,29 @@ TEST_CASE("Gradients of damage, loss, film and temperature are what central diff
   }
 }
 
+TEST_CASE("Film and temperatures change with the torque by line loads, mean friction and bulk temperature", "[optimize][design][life][gradient]") {
+  const DesignTask task = task_under_spectrum();
+  const DesignProblem problem(task);
+  const auto under = [&](double share) {
+    DesignTask scaled = task;
+    for (DesignScene& scene : scaled.scenes) scene.torque *= share;
+    return DesignProblem(scaled);
+  };
+  constexpr double step = 1e-4, round_off = 1e-5;  // of loads, over the step; its square is less
+  const DesignProblem more = under(1.0 + step), less = under(1.0 - step);
+  const LoadedCycle cycle = problem.analyse_scene(0, task.modification, {PinionTorque{}}), up = more.analyse_scene(0, task.modification),
+                    down = less.analyse_scene(0, task.modification);
+  for (const Output output : {Output::LossFactor, Output::SpecificFilmThickness, Output::FlashTemperature, Output::ContactTemperature,
+                              Output::MicropittingUtilisation, Output::ScuffingUtilisation}) {
+    const ObjectiveTerm of = term(output);
+    const PeakCandidate candidate = leading_candidates(of, problem.scene_of(cycle, 0), 0.0, 1).front();
+    CAPTURE(of.name);
+    const double found =
+        (candidate_value(of, candidate, more.scene_of(up, 0)).value - candidate_value(of, candidate, less.scene_of(down, 0)).value) / (2.0 * step);
+    CHECK(candidate_value(of, candidate, problem.scene_of(cycle, 0)).gradient[0] * task.scenes[0].torque == Approx(found).epsilon(round_off));
+  }
+}
+
 TEST_CASE("A utilisation is the stress, the film or the temperature of a load case over what it may be", "[optimize][design][life]") {
   DesignProblem problem(task_under_spectrum());
   const DesignAnalysis& analysis = problem.analyse(problem.start(), false);

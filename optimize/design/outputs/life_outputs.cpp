@@ -57,7 +57,8 @@ struct Film {
   FilmCondition condition;
 };
 
-Film film_of(const ObjectiveTerm& term, const LoadedScene& scene) {
+/// @param force  of the mesh [N]
+Film film_under(double force, const ObjectiveTerm& term, const LoadedScene& scene) {
   const LifeModel& life = life_of(term, scene);
   if (!life.lubricant) throw InvalidInput(term.name, "no lubricant", "a table [lubricant]");
   if (scene.operation == nullptr || !(scene.operation->speed > 0.0)) throw InvalidInput(term.name, "no speed", "load.speed, or a speed in every bin");
@@ -68,7 +69,26 @@ Film film_of(const ObjectiveTerm& term, const LoadedScene& scene) {
   condition.roughness = life.roughness;
   condition.overload = scene.operation->overload();
   const MeshModel& model = scene.model;
-  return {*life.lubricant, film_condition(model.pair, model.face_width, scene.cycle.force, *life.lubricant, condition)};
+  return {*life.lubricant, film_condition(model.pair, model.face_width, force, *life.lubricant, condition)};
+}
+
+Film film_of(const ObjectiveTerm& term, const LoadedScene& scene) { return film_under(scene.cycle.force, term, scene); }
+
+/// A value at one point with its gradient: by the point's line load and, where a parameter moves it, by the force of the mesh, on which mean friction and bulk
+/// temperature depend.
+/// @param value  of a film, under the point's line load
+template <class Value>
+SmoothValue value_at(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, double slope, const Value& value) {
+  SmoothValue found{value(film_of(term, scene)), {}};
+  const LoadedCycle& cycle = scene.cycle;
+  const LoadedPosition& position = cycle.positions[static_cast<std::size_t>(candidate.position)];
+  if (position.line_load_derivative.cols() == 0) return found;
+  found.gradient = slope * position.line_load_derivative.row(candidate.other).transpose();
+  if (cycle.force_derivative.size() != found.gradient.size() || cycle.force_derivative.isZero(0.0)) return found;
+  const double step = 1e-5 * cycle.force;  // its square and round-off over it are below 1e-9 of powers of the force
+  const double by_force = (value(film_under(cycle.force + step, term, scene)) - value(film_under(cycle.force - step, term, scene))) / (2.0 * step);
+  found.gradient += by_force * cycle.force_derivative.transpose();
+  return found;
 }
 
 LocalTemperature temperature_at(const Film& film, const LoadedScene& scene, std::size_t position, Eigen::Index point) {
@@ -90,11 +110,8 @@ CandidateValues temperatures(const ObjectiveTerm& term, const LoadedScene& scene
 }
 
 SmoothValue temperature_of(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, double LocalTemperature::*which) {
-  const auto i = static_cast<std::size_t>(candidate.position);
-  const LocalTemperature local = temperature_at(film_of(term, scene), scene, i, candidate.other);
-  const LoadedPosition& position = scene.cycle.positions[i];
-  if (position.line_load_derivative.cols() == 0) return {local.*which, {}};
-  return smooth(local.*which, local.slope * position.line_load_derivative.row(candidate.other));
+  const auto at = [&](const Film& film) { return temperature_at(film, scene, static_cast<std::size_t>(candidate.position), candidate.other); };
+  return value_at(term, candidate, scene, at(film_of(term, scene)).slope, [&](const Film& film) { return at(film).*which; });
 }
 
 }  // namespace
@@ -160,16 +177,15 @@ CandidateValues film_ratios(const ObjectiveTerm& term, const LoadedScene& scene)
 }
 
 SmoothValue film_ratio_of(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
-  const Film film = film_of(term, scene);
   const auto i = static_cast<std::size_t>(candidate.position);
-  const LoadedPosition& position = scene.cycle.positions[i];
   // A point that has lost its load borders on a thick film: 1e-3 N/mm, with which lambda is three times that of 4 N/mm.
   constexpr double least_load = 1e-3;
-  const double load = std::max(least_load, position.load.line_load[candidate.other]);
+  const double load = std::max(least_load, scene.cycle.positions[i].load.line_load[candidate.other]);
   const ContactPoint& point = scene.model.positions[i].points[static_cast<std::size_t>(candidate.other)];
-  const LocalFilm local = local_film(scene.model.pair, scene.model.contact_modulus, point, load, film.lubricant, film.condition);
-  if (position.line_load_derivative.cols() == 0) return {local.ratio, {}};
-  return smooth(local.ratio, local.slope * position.line_load_derivative.row(candidate.other));
+  const auto at = [&](const Film& film) {
+    return local_film(scene.model.pair, scene.model.contact_modulus, point, load, film.lubricant, film.condition);
+  };
+  return value_at(term, candidate, scene, at(film_of(term, scene)).slope, [&](const Film& film) { return at(film).ratio; });
 }
 
 CandidateValues flash_temperatures(const ObjectiveTerm& term, const LoadedScene& scene) {

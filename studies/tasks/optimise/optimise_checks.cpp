@@ -112,7 +112,10 @@ void check_life_outputs(StudyReading& reading) {
   for (const auto& [key, term] : all_terms(study.table<OptimiseTable>())) {
     const DesignOutput& row = design_output(term.output);
     if (row.is_least && !key.starts_with("optimise.constraints."))
-      reading.refuse_key(key, term.name + " is better where it is large: allowed is { min = ... } in optimise.constraints");
+      reading.refuse_key(
+          key,
+          term.name +
+              " is better where it is large: allowed is { min = ... } in optimise.constraints, or micropitting_utilisation as what is minimised");
     if (row.over_spectrum && study.spectrum.empty()) refuse(key, term, "load.spectrum, which is not given");
     const bool of_flanks = term.output == Output::ContactDamage || term.output == Output::ContactUtilisation;
     const bool of_roots = term.output == Output::RootDamage || term.output == Output::RootUtilisation;
