@@ -7,53 +7,26 @@
 #include "core/rating/position_gradient.hpp"
 #include "core/rating/shaft_misalignment.hpp"
 #include "studies/analysis/rims.hpp"
+#include "studies/results/gradient_rows.hpp"
 
 namespace flankwright::studies {
 
 namespace {
 
-/// Derivatives by internal units of the parameters become those by the units that a study file gives them in.
-class Outside {
- public:
-  explicit Outside(const std::vector<GradientParameter>& parameters) : units_(std::ssize(parameters)) {
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-      units_[static_cast<Eigen::Index>(i)] = parameters[i].unit_size;
-      parameters_.push_back(parameters[i].parameter);
-    }
-  }
-
-  const std::vector<MeshParameter>& parameters() const { return parameters_; }
-
-  /// @param per_unit  internal units of the output in one of its key's
-  Json row(const Eigen::RowVectorXd& derivative, double per_unit = 1.0) const {
-    if (derivative.size() == 0) return nullptr;
-    return Json(Eigen::RowVectorXd(derivative.cwiseProduct(units_) / per_unit));
-  }
-  Json rows(const Eigen::MatrixXd& derivatives, double per_unit = 1.0) const {
-    Json all = Json::array();
-    for (Eigen::Index i = 0; i < derivatives.rows(); ++i) all.push_back(row(derivatives.row(i), per_unit));
-    return all;
-  }
-
- private:
-  Eigen::RowVectorXd units_;
-  std::vector<MeshParameter> parameters_;
-};
-
-Json located_json(const PeakGradients& peaks, const Outside& outside) {
+Json located_json(const PeakGradients& peaks, const GradientRows& outside) {
   const auto pair = [&](const PeakGradients::Pair& of) {
     return Json{{"contact_stress_MPa", outside.row(of.contact_stress)}, {"load_N_per_mm", outside.row(of.line_load)}};
   };
   return {{"without_spikes", pair(peaks.without_spikes)}, {"with_spikes", pair(peaks.with_spikes)}};
 }
 
-Json located_json(const LoadRating& rating, const Outside& outside) {
+Json located_json(const LoadRating& rating, const GradientRows& outside) {
   Json json = located_json(rating.peak_gradients, outside);
   json["perfect_pair"] = located_json(rating.perfect_gradients, outside);
   return json;
 }
 
-Json factors_json(const LoadRating& rating, const Outside& outside) {
+Json factors_json(const LoadRating& rating, const GradientRows& outside) {
   const auto triple = [&](const LoadFactorGradients::Triple& of) {
     return Json{{"K_Hbeta", outside.row(of.lead)},
                 {"K_Halpha", outside.row(of.profile)},
@@ -65,7 +38,7 @@ Json factors_json(const LoadRating& rating, const Outside& outside) {
           {"line_load", triple(rating.factor_gradients.line_load)}};
 }
 
-Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside, const ShaftMisalignment& shafts) {
+Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const GradientRows& outside, const ShaftMisalignment& shafts) {
   const IsoGradient iso = iso_gradient(model, loaded.condition, loaded.iso, loaded.cycle, outside.parameters(), shafts);
   return {{"K_Hbeta", outside.row(iso.lead)},
           {"K_Halpha", outside.row(iso.profile)},
@@ -74,7 +47,7 @@ Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const
           {"specific_load_N_per_mm", outside.row(iso.specific_load)}};
 }
 
-Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside, const ShaftMisalignment& shafts,
+Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, const GradientRows& outside, const ShaftMisalignment& shafts,
                            bool full_cycle) {
   const CycleGradient summary = resolved_gradient(model, loaded.cycle, loaded.resolved);
   const auto tangent = [&](const CycleGradient::Root& root) {
@@ -100,7 +73,7 @@ Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, c
 
 /// teeth[] of a position, as position_json() has them.
 Json teeth_json(const MeshPosition& at, const LoadedPosition& position, const PositionGradient& gradient, const std::vector<LineEnd>& ends,
-                const Outside& outside) {
+                const GradientRows& outside) {
   Json teeth = Json::array();
   const auto um = [&](const Eigen::MatrixXd& of, Eigen::Index i) { return outside.row(of.row(i), units::um); };
   const std::vector<ToothShare> shares = load_sharing(at, position);
@@ -159,7 +132,7 @@ ShaftGradient shaft_gradient(const ShaftPair& shafts, Member member, const Loade
 /// shafts[] of one position, as add_shaft_motion() has them.
 /// @param sum  the mesh's misalignment is added to it
 Json shafts_gradient_json(const ShaftPair& shafts, const LoadedResult& loaded, const MeshModel& model, std::size_t i,
-                          const PositionGradient& position, const Outside& outside, Eigen::RowVectorXd& sum) {
+                          const PositionGradient& position, const GradientRows& outside, Eigen::RowVectorXd& sum) {
   Json entry{{"phase", model.positions[i].phase}};
   Eigen::RowVectorXd together = Eigen::RowVectorXd::Zero(position.point_force.cols());
   for (const auto& [member, name] : {std::pair{Member::Pinion, "pinion"}, std::pair{Member::Wheel, "wheel"}}) {
@@ -186,10 +159,12 @@ ShaftMisalignment with_rims(ShaftMisalignment shafts, double rim_opening, double
 
 }  // namespace
 
+bool has_gradients(const StudyResults& results) { return results.study.task->one_design && !results.study.gradients.empty(); }
+
 Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
   const Study& study = results.study;
   const MeshModel& model = results.models[loaded.model];
-  const Outside outside(study.gradients);
+  const GradientRows outside(study.gradients);
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   Json cycle = Json::array(), shafts = Json::array();
   ShaftMisalignment by_shafts{0.0, Eigen::RowVectorXd::Zero(loaded.cycle.force_derivative.size())};

@@ -254,8 +254,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results, bool w
   if (loaded.bin >= 0) json["bin"] = loaded.bin;
   if (results.shafts) add_shaft_motion(loaded, results, json);
   if (results.structures.rim_motion) add_rim_motion(loaded, results, json);
-  const bool asked = results.study.task->one_design && !results.study.gradients.empty();
-  if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);
+  if (has_gradients(results) && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);
   json["cycle"] = std::move(cycle);
   put_null_for_nan(json);
   return json;

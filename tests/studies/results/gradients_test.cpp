@@ -189,6 +189,46 @@ TEST_CASE("Derivatives keep what the loads keep", "[studies][gradient]") {
   CHECK(gradients.at("normal_force_N").at(2).get<double>() * 300 == Approx(force).epsilon(kRoundOff));
 }
 
+TEST_CASE("Loss, film, temperatures and their safeties have derivatives beside them", "[studies][gradient][life]") {
+  constexpr double kDifference = 5e-5;  // step^2 times curvature, and loads' round-off over the step, relative
+  const std::string oil = R"(
+[lubricant]
+viscosity_40 = 220
+viscosity_100 = 19
+temperature = 80
+permissible_film = 0.3
+scuffing_temperature = 250
+roughness = 0.4
+)";
+  const auto case_of = [&](std::vector<Override> overrides) {
+    overrides.push_back({"load.speed", "\"1500 rpm\""});
+    return json::parse(results_json(run_study(parse_study(loaded_study + oil, "small.toml", overrides)))).at("life").at("cases").at(0);
+  };
+  struct Key {
+    const char* path;
+    double value, step;
+  };
+  const std::vector<Key> keys{
+      {"pinion.modification.lead_crowning", 6, 0.01}, {"misalignment.mesh_misalignment", 4, 0.01}, {"load.torque", 300, 0.05}};
+  const json here =
+      case_of({{"analyse.gradients",
+                R"(["pinion.modification.lead_crowning", "misalignment.mesh_misalignment", "load.torque", "misalignment.axial_offset"])"}});
+  const json& gradients = here.at("gradients");
+  CHECK(gradients.size() == 6);
+  for (std::size_t p = 0; p < keys.size(); ++p) {
+    const auto moved = [&](double by) { return case_of({{keys[p].path, std::to_string(keys[p].value + by)}}); };
+    const json up = moved(keys[p].step), down = moved(-keys[p].step);
+    for (const auto& [figure, derivatives] : gradients.items()) {
+      CAPTURE(keys[p].path, figure);
+      const double difference = (up.at(figure).get<double>() - down.at(figure).get<double>()) / (2 * keys[p].step);
+      const double size = 0.1 * std::abs(here.at(figure).get<double>()) / keys[p].value;
+      CHECK(std::abs(derivatives.at(p).get<double>() - difference) <= kDifference * (std::abs(difference) + size));
+    }
+  }
+  for (const auto& [figure, derivatives] : gradients.items()) CHECK(derivatives.at(3).is_null());  // it moves the points of contact
+  CHECK_FALSE(case_of({}).contains("gradients"));
+}
+
 TEST_CASE("Shafts' motion has derivatives beside it", "[studies][gradient][shafts]") {
   constexpr double kDifference = 1e-5;  // step^2 times curvature
   const std::string shafts = R"([pinion.shaft]
