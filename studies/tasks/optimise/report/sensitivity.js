@@ -43,6 +43,9 @@ function build_sensitivity(results, body) {
   const shown = (change) => (!is_number(change) ? null : Math.abs(change) < round_off ? 0 : change);
   const unit = pretty_unit(governing.objective_unit ?? optimise.objective_unit), name = words(governing.objective_name ?? optimise.objective_name);
   const entries = list(optimise.sensitivity).map(record);
+  const intervals_of = (kind) => record(entries.find((s) => s.kind === kind)).intervals;
+  const [of_variables, of_tolerances] = [intervals_of("variable"), intervals_of("tolerance")];
+  const by_fewer = of_tolerances < of_variables ? ` By ${of_tolerances} intervals along each contact line; the variables by ${of_variables}.` : "";
   name_assessed_design(optimise, body);
   const grid = figure_grid(body);
   const draw = (kind, title, caption) => {
@@ -57,7 +60,7 @@ function build_sensitivity(results, body) {
     `Change of the ${name} to first order, kinks included, with all other variables fixed. At an optimum no step within bounds and limits reduces it. `
     + "Hollow bars leave the bounds.");
   draw("tolerance", "A step of each tolerance",
-    `Change of the ${name} by this deviation of housing, manufacture or load in every scene, with unchanged flanks.`);
+    `Change of the ${name} by this deviation of housing, manufacture or load in every scene, with unchanged flanks.${by_fewer}`);
   table(body, {
     title: "Sensitivity of the optimum",
     note: "The last column is to first order for a design that is optimised anew after the step.",
