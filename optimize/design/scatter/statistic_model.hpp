@@ -41,8 +41,7 @@ class StatisticModel {
   void combine(const Aggregation& over) { objective_.over = over; }
   /// Makes a quantile the mean of the quantiles of all levels that so many draws do not tell apart: within two standard errors sqrt(p (1 - p) / draws) of its
   /// own p (95 % confidence), at most four fifths of what lies beyond it. One draw has then a small weight, and a search finds less of what is only in its
-  /// sample: a tail that rises steeply beyond p has to stay beyond the whole band. With exact() the
-  /// statistic is the quantile itself again.
+  /// sample. A tail that rises steeply just beyond p raises the mean. With exact() the statistic is the quantile itself again.
   void smooth(int draws);
   void exact() { band_ = 0.0; }
   /// Draws of the objective, see draws_of().

@@ -117,8 +117,8 @@ std::string move_in_words(const Relaxation::Move& move, const DesignTask& task) 
   return fmt::format("The {} is not a variable: {:+.2g} {}{} {}.", plain_name(of.name), move.steps * of.step, of.unit, extent, gain);
 }
 
-/// An accuracy may take 48 intervals, and a tolerance that moves the mesh two meshes of its own in every scene. 16 intervals give the sensitivities within
-/// about a tenth of those by 48. Intervals that the study gives are its own.
+/// With an accuracy a run may take 48 intervals, and each tolerance that moves the mesh takes two more meshes in every scene. On a wind stage 16 intervals give
+/// these sensitivities within an eighth of those by 48, except those to the centre distance, which are small. Intervals that the study gives are kept.
 int most_tolerance_intervals(const Study& study) {
   constexpr int enough = 16;
   return study.fidelity.automatic_intervals ? enough : study.fidelity.quadrature.intervals;
