@@ -45,7 +45,7 @@ function build_sensitivity(results, body) {
   const entries = list(optimise.sensitivity).map(record);
   const intervals_of = (kind) => record(entries.find((s) => s.kind === kind)).intervals;
   const [of_variables, of_tolerances] = [intervals_of("variable"), intervals_of("tolerance")];
-  const by_fewer = of_tolerances < of_variables ? ` By ${of_tolerances} intervals along each contact line; the variables by ${of_variables}.` : "";
+  const by_fewer = of_tolerances < of_variables ? ` Tolerances are analysed by ${of_tolerances} intervals along each contact line, variables by ${of_variables}.` : "";
   name_assessed_design(optimise, body);
   const grid = figure_grid(body);
   const draw = (kind, title, caption) => {
