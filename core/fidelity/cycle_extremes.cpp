@@ -58,7 +58,7 @@ class Search {
       const std::vector<double> phases(probes.begin(), probes.end());
       probes.clear();
       const MeshModel mesh = mesh_at_(phases);
-      const LoadedCycle cycle = analyse_cycle(mesh, condition_, torque_, {}, {}, RootStresses::Later);
+      const LoadedCycle cycle = analyse_cycle(mesh, condition_, torque_, {}, RootStresses::Later);
       found.looked_at += static_cast<int>(phases.size());
       if (!cycle.usable()) break;
       for (std::size_t i = 0; i < phases.size(); ++i) known_[phases[i]] = values_of(cycle.positions[i]);

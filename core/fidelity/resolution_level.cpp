@@ -10,15 +10,6 @@ PerFigure ResolutionLevel::error() const {
   return both;
 }
 
-CycleFigures figures_of(const MeshModel& model, const LoadedCycle& cycle, const CycleSummary& summary) {
-  CycleFigures figures = SampledCycle(model, cycle).figures();
-  figures[Figure::TePeakToPeak] = summary.te_peak_to_peak;
-  figures[Figure::PeakContactStress] = summary.peak_contact_stress;
-  figures[Figure::PeakLineLoad] = summary.peak_line_load;
-  figures[Figure::LoadFactor] = summary.load_factor;
-  return figures;
-}
-
 PerFigure error_shares(const CycleErrors& errors, const CycleFigures& figures) {
   CycleFigures moved = figures;
   moved[Figure::TeMean] += errors.te_mean;

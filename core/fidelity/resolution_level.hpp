@@ -12,8 +12,6 @@ struct ResolutionLevel {
   PerFigure error() const;                         ///< their sum
 };
 
-/// Figures of a resolved cycle, in the order of Figure.
-CycleFigures figures_of(const MeshModel& model, const LoadedCycle& cycle, const CycleSummary& summary);
 /// Estimated errors as shares, as figure_errors() counts them; NaN where none was estimated.
 PerFigure error_shares(const CycleErrors& errors, const CycleFigures& figures);
 

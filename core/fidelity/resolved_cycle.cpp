@@ -54,7 +54,7 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
     LoadedCycle coarse;
     CyclesBetween between;
     if (resolving.coarse_at && resolved.extreme_mesh) {
-      coarse = analyse_cycle(resolving.coarse_at(resolved.extremes.phases), condition, pinion_torque, {}, {}, RootStresses::Later);
+      coarse = analyse_cycle(resolving.coarse_at(resolved.extremes.phases), condition, pinion_torque, {}, RootStresses::Later);
       if (coarse.usable() && resolved.extreme_cycle.usable()) between = {&resolved.extreme_cycle, &coarse};
     }
     const CycleExtremes* const sought = resolving.seek_extremes ? &resolved.extremes : nullptr;

@@ -265,7 +265,6 @@ ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition
   }
   ContactPeaks peaks = samples.over_all();
   if (!search.everywhere) peaks.everywhere = {};
-  peaks.search_step = search.step;
   peaks.phase_tolerance = search.phase_tolerance;
   peaks.spikes = search.spikes;
   return peaks;

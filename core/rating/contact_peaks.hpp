@@ -45,7 +45,6 @@ struct ContactPeaks {
   Pair everywhere;                    ///< edges included; NaN where they were not sought
   int positions{0};                   ///< mesh positions solved
   int failures{0};                    ///< of these without a usable load distribution: the peaks are then those of the others
-  double search_step{not_given};      ///< used [base pitches]
   double phase_tolerance{not_given};  ///< used [base pitches]
   SpikeRule spikes{};                 ///< used
 };

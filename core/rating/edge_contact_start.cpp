@@ -66,7 +66,7 @@ std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const
   const double close = 1e-3 * pinion_torque;
   const double whole = std::min(pinion_torque, earlier_than - close);
   if (!(whole > 0.0)) return std::nullopt;
-  const LoadedCycle cycle = analyse_cycle(model, condition, whole, {}, {}, RootStresses::Later);
+  const LoadedCycle cycle = analyse_cycle(model, condition, whole, {}, RootStresses::Later);
   std::vector<Touched> candidates;
   if (cycle.usable()) {
     for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
@@ -81,7 +81,7 @@ std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const
   for (const Touched& candidate : candidates) {
     const MeshModel one = at_position(model, candidate.position);
     const auto touches = [&](double torque) {
-      const LoadedCycle there = analyse_cycle(one, condition, torque, {}, {}, RootStresses::Later);
+      const LoadedCycle there = analyse_cycle(one, condition, torque, {}, RootStresses::Later);
       return there.usable() && touched(one.positions[0], there.positions[0], candidate.position, of).has_value();
     };
     double without = 0.0, torque = start.torque;

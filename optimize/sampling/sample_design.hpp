@@ -34,7 +34,6 @@ class SampleDesign {
   explicit SampleDesign(std::vector<int> levels);
 
   long long samples() const { return samples_; }
-  int dimensions() const { return dimensions_; }
   /// @param i  0 .. samples() - 1
   std::vector<double> point(long long i) const;
 

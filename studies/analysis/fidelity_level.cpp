@@ -52,10 +52,10 @@ double LevelRunner::first_seconds(ComplianceModel model) {
   const auto add = [&](const GearRun& run) { seconds += run.statistics.model_seconds + run.statistics.solve_seconds; };
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     add((*made.finite_elements)[member]);
-    for (const auto* run : {&made.finite_elements->fine_run(member), &made.finite_elements->narrow_run(member)}) {
+    for (const auto* run : {&made.finite_elements->fine[member], &made.finite_elements->narrow[member]}) {
       if (*run) add(**run);
     }
-    const auto& correction = made.correction(member);
+    const auto& correction = made.corrections[member];
     if (correction && !correction->unknown.empty()) seconds += correction->fit.seconds;
   }
   return seconds;
@@ -95,12 +95,12 @@ std::vector<CycleFigures> LevelRunner::figures(const FidelityLevel& level) {
     const MeshModel& model = known->second;
     const LoadedCycle cycle = analyse_cycle(model, scene.condition, scene.torque);
     if (!cycle.usable()) return {};
-    CycleFigures figures = SampledCycle(model, cycle).figures();
+    CycleFigures figures = figures_of(cycle, summarise(model, cycle));
     if (level.located_peaks) {
       const auto mesh_at = [&](const std::vector<double>& phases) { return mesh_for({level.quadrature, phases}); };
       const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
       const CycleResolving resolving{.seek_extremes = level.quadrature.rule == QuadratureRule::Graded};
-      figures = figures_of(model, cycle, resolve_cycle(model, cycle, at, scene.condition, scene.torque, resolving).summary);
+      figures = figures_of(cycle, resolve_cycle(model, cycle, at, scene.condition, scene.torque, resolving).summary);
       const ContactPeaks peaks = locate_peaks(mesh_at, scene.condition, scene.torque, {.everywhere = true});
       if (peaks.failures > 0) return {};
       figures[Figure::LoadFactor] *= peaks.everywhere.line_load.value / figures[Figure::PeakLineLoad];

@@ -15,7 +15,7 @@ namespace {
 ResolutionLevel level_of(const JudgedCase& of, const StudyResults& results) {
   const CycleErrorParts& parts = of.resolved->error_parts;
   ResolutionLevel level{results.study.fidelity.quadrature.intervals, static_cast<int>(results.phases.size()),
-                        figures_of(*of.model, *of.cycle, of.resolved->summary)};
+                        figures_of(*of.cycle, of.resolved->summary)};
   if (!results.fidelity_choice->quadrature_given) level.quadrature_error = error_shares(parts.points, level.figures);
   if (!results.fidelity_choice->positions_given) level.position_error = error_shares(parts.positions, level.figures);
   return level;

@@ -111,12 +111,12 @@ std::vector<CycleFigures> figures_with(const StudyResults& results, const std::v
     const DesignScene& scene = scenes[i];
     const MeshPlacement placement = placement_of_scene(scene);
     const MeshModel& model = models.at(placement);
-    const LoadedCycle cycle = analyse_cycle(model, scene.condition, scene.torque, {}, {}, RootStresses::Later);
+    const LoadedCycle cycle = analyse_cycle(model, scene.condition, scene.torque, {}, RootStresses::Later);
     failures[i] = cycle.failures;
     if (!cycle.usable()) return;
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh(placement, phases); };
     const CycleResolving resolving{.seek_extremes = seeks_extremes(study)};
-    figures[i] = figures_of(model, cycle, resolve_cycle(model, cycle, at, scene.condition, scene.torque, resolving).summary);
+    figures[i] = figures_of(cycle, resolve_cycle(model, cycle, at, scene.condition, scene.torque, resolving).summary);
   });
   if (std::ranges::any_of(failures, [](int failed) { return failed > 0; })) return {};
   return figures;

@@ -194,7 +194,7 @@ const GearStructures& StudyRun::structures() {
 
 void StudyRun::note_fits() {
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    const auto& correction = results_.structures.correction(member);
+    const auto& correction = results_.structures.corrections[member];
     if (!correction) continue;
     const std::string why = correction->unknown.empty() ? "" : ": " + correction->unknown;
     results_.steps.push_back({std::string("fit_of_") + name_of(member), correction->source() + why, correction->seconds});

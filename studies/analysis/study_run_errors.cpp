@@ -79,7 +79,7 @@ std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<Mesh
 std::optional<CoarseCycle> StudyRun::coarse_cycle_of(const LoadedResult& loaded) const {
   const auto found = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
   if (found == coarse_models_.end()) return std::nullopt;
-  CoarseCycle coarse{&found->second, analyse_cycle(found->second, loaded.condition, loaded.torque, {}, {}, RootStresses::Later)};
+  CoarseCycle coarse{&found->second, analyse_cycle(found->second, loaded.condition, loaded.torque, {}, RootStresses::Later)};
   return coarse.cycle.usable() ? std::optional(std::move(coarse)) : std::nullopt;
 }
 
@@ -156,7 +156,7 @@ void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
       const std::vector<double>& phases = of->resolved->extremes.phases;
       if (is_wide && !phases.empty() && stated.edge_stress > 0.0) {
         const MeshModel between = mesh(placed[i].first, {quadrature, phases}, nullptr, results_.shafts.get(), {});
-        const LoadedCycle at_extremes = analyse_cycle(between, *of->condition, torque, {}, {}, RootStresses::Later);
+        const LoadedCycle at_extremes = analyse_cycle(between, *of->condition, torque, {}, RootStresses::Later);
         widen_edge_errors(stated, of->resolved->summary, cycle, at_extremes, *of->resolved);
       }
       of->compared_intervals = quadrature.intervals;

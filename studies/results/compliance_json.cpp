@@ -101,17 +101,17 @@ Json compliance_json(const GearStructures& structures, const Study& study) {
   const FiniteElementRuns& runs = *structures.finite_elements;
   const auto gear = [&](Member member, const Material& material) {
     Json json = gear_run_json(runs[member], material);
-    if (const auto& fine = runs.fine_run(member)) json["fine_mesh"] = gear_run_json(*fine, material);
-    if (const auto& rigid = runs.rigid_body_run(member)) json["rigid_body"] = gear_run_json(*rigid, material);
-    if (const auto& narrow = runs.narrow_run(member)) json["coarse_mesh_of_fit"] = gear_run_json(*narrow, material);
-    if (const auto& correction = structures.correction(member)) json["fit"] = correction_json(*correction);
+    if (const auto& fine = runs.fine[member]) json["fine_mesh"] = gear_run_json(*fine, material);
+    if (const auto& rigid = runs.rigid_body[member]) json["rigid_body"] = gear_run_json(*rigid, material);
+    if (const auto& narrow = runs.narrow[member]) json["coarse_mesh_of_fit"] = gear_run_json(*narrow, material);
+    if (const auto& correction = structures.corrections[member]) json["fit"] = correction_json(*correction);
     return json;
   };
   Json json{{"model", to_string(study.fidelity.compliance)},
             {"seconds", runs.seconds},
             {"pinion", gear(Member::Pinion, study.material.pinion)},
             {"wheel", gear(Member::Wheel, study.material.wheel)}};
-  if (structures.correction(Member::Pinion)) json["fits"] = fits_json(CorrectionLibrary::shipped());
+  if (structures.corrections[Member::Pinion]) json["fits"] = fits_json(CorrectionLibrary::shipped());
   return json;
 }
 

@@ -126,7 +126,7 @@ Json used_json(const StudyResults& results) {
         {"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
   }
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    if (const auto& correction = results.structures.correction(member)) {
+    if (const auto& correction = results.structures.corrections[member]) {
       used["fidelity"]["fits"][name_of(member)] = correction->source();
     }
   }

@@ -1,13 +1,9 @@
 #include "core/compliance/finite_element/influence.hpp"
 
 #include <chrono>
-#include <initializer_list>
 #include <utility>
 
 namespace flankwright {
-namespace {
-
-using Functionals = Eigen::SparseMatrix<double>;
 
 Functionals side_by_side(std::initializer_list<const Functionals*> parts, Eigen::Index rows) {
   Eigen::Index columns = 0, entries = 0;
@@ -27,6 +23,8 @@ Functionals side_by_side(std::initializer_list<const Functionals*> parts, Eigen:
   result.finalize();
   return result;
 }
+
+namespace {
 
 double clock_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 

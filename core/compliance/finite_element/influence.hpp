@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,12 @@ struct InfluenceMatrix {
   Eigen::MatrixXd compliance;
   RunStatistics statistics;
 };
+
+/// Linear functionals of the displacements, one in each column.
+using Functionals = Eigen::SparseMatrix<double>;
+/// All columns of some, in this order.
+/// @param rows  of each that has columns
+Functionals side_by_side(std::initializer_list<const Functionals*> parts, Eigen::Index rows);
 
 /// Influence of forces on flanks on these, and on any other linear functional of the displacements.
 struct FlankInfluence {

@@ -90,23 +90,6 @@ int teeth_apart_in_contact(const GearPair& pair) { return static_cast<int>(std::
 
 namespace {
 
-/// Adds columns on the right; a matrix without any takes the other's rows.
-void append_columns(Eigen::SparseMatrix<double>& left, const Eigen::SparseMatrix<double>& right) {
-  Eigen::SparseMatrix<double> both(right.rows(), left.cols() + right.cols());
-  both.reserve(left.nonZeros() + right.nonZeros());
-  for (const Eigen::SparseMatrix<double>* part : {static_cast<const Eigen::SparseMatrix<double>*>(&left), &right}) {
-    const Eigen::Index first = part == &right ? left.cols() : 0;
-    for (Eigen::Index column = 0; column < part->cols(); ++column) {
-      both.startVec(first + column);
-      for (Eigen::SparseMatrix<double>::InnerIterator entry(*part, column); entry; ++entry) {
-        both.insertBack(entry.row(), first + column) = entry.value();
-      }
-    }
-  }
-  both.finalize();
-  left.swap(both);
-}
-
 /// Solves into a run, which holds what was done before an allocation fails.
 class TableSolver {
  public:
@@ -126,9 +109,11 @@ class TableSolver {
     RootStressReadings roots = task_.root_stress ? root_stress_readings(mesh, material, task_.grid) : RootStressReadings{};
     const Eigen::Index of_stress = roots.stress.cols(), of_loads = roots.on_the_flank.cols();
     const bool has_rim = reads_rim_motion(task_.gear.body);
-    Eigen::SparseMatrix<double> readings = taken(roots.stress);
-    append_columns(readings, taken(roots.on_the_flank));
-    if (has_rim) append_columns(readings, rim_functionals(mesh));
+    Functionals readings;
+    {  // what they are made of goes before the solution, which needs the memory
+      const Functionals stress = taken(roots.stress), on_the_flank = taken(roots.on_the_flank), rim = has_rim ? rim_functionals(mesh) : Functionals();
+      readings = side_by_side({&stress, &on_the_flank, &rim}, mesh.solid.nodes.size());
+    }
     const TeethStations stations(task_);
     FlankFunctionals functionals(mesh, stations.points(mesh), task_.removed, taken(readings));
     const double model = clock.seconds();

@@ -19,8 +19,8 @@ using Eigen::Index;
 /// Relative residuals of all pairs, and the ridge.
 class PairResiduals final : public ResidualFunction {
  public:
-  PairResiduals(std::span<const InfluenceSample> samples, const KernelForm& form, const FitOptions& options, std::span<const double> anchor)
-      : form_(form), anchor_(anchor.begin(), anchor.end()) {
+  PairResiduals(std::span<const InfluenceSample> samples, const KernelForm& form, const FitOptions& options, std::span<const double> start)
+      : form_(form), start_(start.begin(), start.end()) {
     for (const InfluenceSample& sample : samples) {
       sums_.emplace_back(form, sample.gear, sample.points);
       // All teeth are alike: pairs of the same stations, as many teeth apart, are one pair that was computed
@@ -56,7 +56,7 @@ class PairResiduals final : public ResidualFunction {
       }
     }
     const auto tooth_count = static_cast<std::size_t>(form.tooth_count());
-    for (std::size_t i = 0; i < anchor_.size(); ++i) {
+    for (std::size_t i = 0; i < start_.size(); ++i) {
       ridge_.push_back(i < tooth_count ? options.tooth_ridge : options.body_ridge);
     }
   }
@@ -92,7 +92,7 @@ class PairResiduals final : public ResidualFunction {
     }
     if (!jacobian.empty()) std::fill(jacobian.begin() + static_cast<std::ptrdiff_t>(i * n), jacobian.end(), 0.0);
     for (std::size_t c = 0; c < n; ++c, ++i) {
-      residuals[i] = ridge_[c] * (x[c] - anchor_[c]);
+      residuals[i] = ridge_[c] * (x[c] - start_[c]);
       if (!jacobian.empty()) jacobian[i * n + c] = ridge_[c];
     }
     return finite;
@@ -112,7 +112,7 @@ class PairResiduals final : public ResidualFunction {
   }
 
   const KernelForm& form_;
-  std::vector<double> anchor_, ridge_;
+  std::vector<double> start_, ridge_;
   mutable std::vector<KernelSum> sums_;  ///< hold the coefficients of the evaluation under way
   std::vector<Pair> pairs_;
   int teeth_apart_{0};    ///< of known pairs
@@ -177,10 +177,8 @@ std::vector<InfluenceSample> known_to(const KernelForm& form, std::span<const In
 
 void FitOptions::validate(const KernelForm& form) const {
   const auto size = static_cast<std::size_t>(form.count());
-  for (const auto& [name, list] : {std::pair{"fit.start", &start}, std::pair{"fit.anchor", &anchor}}) {
-    if (!list->empty() && list->size() != size) {
-      throw InvalidInput(name, std::to_string(list->size()) + " coefficients", "none or " + std::to_string(size));
-    }
+  if (!start.empty() && start.size() != size) {
+    throw InvalidInput("fit.start", std::to_string(start.size()) + " coefficients", "none or " + std::to_string(size));
   }
   if (!(tooth_ridge >= 0)) throw InvalidInput("fit.tooth_ridge", std::to_string(tooth_ridge), "0 or more");
   if (!(body_ridge >= 0)) throw InvalidInput("fit.body_ridge", std::to_string(body_ridge), "0 or more");
@@ -248,15 +246,13 @@ FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const Ker
   options.validate(form);
   if (all_samples.empty()) throw InvalidInput("samples", "none", "at least one");
   FitResult result;
-  result.asymmetry = 0;
   for (const InfluenceSample& sample : all_samples) {
     sample.validate();
     if (sample.gear != all_samples.front().gear) throw InvalidInput("samples", "of different gears", "of one gear");
-    result.asymmetry = std::max(result.asymmetry, sample.asymmetry());
   }
   const std::vector<InfluenceSample> samples = known_to(form, all_samples);
   const std::vector<double> start = options.start.empty() ? flat_start(form, samples) : options.start;
-  const PairResiduals residuals(samples, form, options, options.anchor.empty() ? start : options.anchor);
+  const PairResiduals residuals(samples, form, options, start);
   result.pairs = residuals.pairs();
 
   const LeastSquaresResult solved = solve_least_squares(residuals, start, options.solver);

@@ -14,15 +14,14 @@ namespace flankwright {
 
 /// Options of the fit of a KernelForm. The cost is
 ///
-///     1/2 [ mean over pairs of ((K_fit - K)/scale)^2  +  sum over coefficients of (ridge (c - anchor))^2 ],
+///     1/2 [ mean over pairs of ((K_fit - K)/scale)^2  +  sum over coefficients of (ridge (c - start))^2 ],
 ///     scale = max(|K_pq|, scale_floor sqrt(K_pp K_qq)).
 ///
 /// A kernel sum is over-complete: very different coefficients give nearly the same compliance. The ridge decides among
 /// them. For comparable coefficients of neighbouring gears, between which one can interpolate, start at one gear's fit
-/// and draw the other's towards it: start and anchor = its coefficients, and a stronger tooth_ridge.
+/// and draw the other's towards it: its coefficients as the start, and a stronger tooth_ridge.
 struct FitOptions {
   std::vector<double> start;   ///< empty: flat kernels of the sample's mean size, flat_start()
-  std::vector<double> anchor;  ///< empty: the start
   double tooth_ridge{2.4e-4};  ///< of warp and kernels [-], >= 0
   double body_ridge{2.4e-4};   ///< of the body parts [-], >= 0
   /// Pairs with hardly any coupling count relative to their diagonal values instead [-], > 0. Where several teeth of a
@@ -43,8 +42,7 @@ struct FitResult {
   Eigen::MatrixXd covariance;
   double initial_cost{std::numeric_limits<double>::quiet_NaN()};
   double cost{std::numeric_limits<double>::quiet_NaN()};
-  double asymmetry{std::numeric_limits<double>::quiet_NaN()};  ///< InfluenceSample::asymmetry(), the worst
-  int pairs{0};                                                ///< N
+  int pairs{0};  ///< N
   int iterations{-1};
 };
 

@@ -62,15 +62,6 @@ Eigen::MatrixXd FittedCompliance::evaluate(std::span<const FlankStation> points)
   return sum.tooth_matrix() + sum.body_matrix();
 }
 
-bool FittedCompliance::covers(std::span<const FlankStation> points) const {
-  if (points.empty()) return true;
-  const FitRange& range = record_.range;
-  const auto [lowest, highest] = teeth_of(points);
-  return highest - lowest <= range.teeth_apart && std::all_of(points.begin(), points.end(), [&](const FlankStation& point) {
-           return point.u >= range.u_min && point.u <= range.u_max && point.zeta >= range.zeta_min && point.zeta <= range.zeta_max;
-         });
-}
-
 bool FittedCompliance::operator==(const FittedCompliance& other) const {
   return form_ == other.form_ && gear_ == other.gear_ && coefficients_ == other.coefficients_ && record_ == other.record_;
 }

@@ -38,7 +38,7 @@ struct FitTable {
 
 /// Tooth compliance as a KernelForm with fitted coefficients: symmetric and positive semi-definite over any points of
 /// any teeth by construction, to round-off. Between the outermost points of the sample and the edges of the flank it
-/// extrapolates smoothly; covers() tells which points that concerns.
+/// extrapolates smoothly.
 class FittedCompliance final : public FlankCompliance {
  public:
   /// @param coefficients  size form.count(), finite
@@ -48,8 +48,6 @@ class FittedCompliance final : public FlankCompliance {
   /// E m_n K [-], n x n. @throws InvalidInput for |u| > 1.05, zeta outside 0 .. B, or points more teeth apart than
   /// range().teeth_apart
   Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
-  /// Whether the points lie within the range of the influence values fitted.
-  bool covers(std::span<const FlankStation> points) const;
 
   const KernelForm& form() const { return form_; }
   const GearProportions& gear() const { return gear_; }

@@ -28,19 +28,6 @@ double InfluenceSample::at(Eigen::Index p, Eigen::Index q) const {
   return 0.5 * (there + back);
 }
 
-double InfluenceSample::asymmetry() const {
-  double worst = 0;
-  for (Eigen::Index p = 0; p < compliance.rows(); ++p) {
-    for (Eigen::Index q = 0; q < p; ++q) {
-      const double there = compliance(p, q), back = compliance(q, p);
-      if (there != back && !std::isnan(there) && !std::isnan(back)) {
-        worst = std::max(worst, std::abs(there - back) / std::abs(there + back));
-      }
-    }
-  }
-  return worst;
-}
-
 void InfluenceSample::validate() const {
   gear.validate();
   const auto n = static_cast<Eigen::Index>(points.size());

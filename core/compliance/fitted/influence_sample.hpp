@@ -37,9 +37,6 @@ struct InfluenceSample {
   /// Reciprocal value of a pair: the mean of both directions, the only one where just one is known, NaN where none is.
   double at(Eigen::Index p, Eigen::Index q) const;
 
-  /// max |K_pq - K_qp| / |K_pq + K_qp| over the pairs known both ways; 0 for a reciprocal sample.
-  double asymmetry() const;
-
   /// @throws InvalidInput where the matrix does not fit the points, a point is off the flank (|u| <= 1.05, zeta in
   ///         0 .. B), a value on the diagonal is known and not positive, a value is infinite, or `given` is neither
   ///         empty nor finite and as large as the matrix

@@ -38,8 +38,8 @@ GearCorrection gear_correction(const ComplianceTask& task, const FiniteElementRu
   }
   const InfluenceTableTask fit_task = task_of_fit(gear);
   const GearProportions fit_facts = facts_of(fit_task.gear);
-  const InfluenceTable& fine = *runs.fine_run(member)->table;
-  const std::shared_ptr<const InfluenceTable>& fit_coarse = runs.narrow_run(member) ? runs.narrow_run(member)->table : coarse;
+  const InfluenceTable& fine = *runs.fine[member]->table;
+  const std::shared_ptr<const InfluenceTable>& fit_coarse = runs.narrow[member] ? runs.narrow[member]->table : coarse;
   const CorrectionSamples samples = correction_samples(fit_facts, fine, *fit_coarse);
   if (auto kept = build.store == nullptr ? std::nullopt : build.store->find_fit(fit_task, start)) {
     result.fit = std::move(kept->value);

@@ -25,16 +25,15 @@ struct Use {
 };
 
 GearRun& place_of(FiniteElementRuns& runs, const Use& use) {
-  const std::size_t i = use.member == Member::Pinion ? 0 : 1;
   switch (use.purpose) {
     case Purpose::Gear:
-      return runs.gears[i];
+      return runs.gears[use.member];
     case Purpose::RigidBody:
-      return runs.rigid_body[i].emplace();
+      return runs.rigid_body[use.member].emplace();
     case Purpose::Fine:
-      return runs.fine[i].emplace();
+      return runs.fine[use.member].emplace();
     case Purpose::FitCoarse:
-      return runs.narrow[i].emplace();
+      return runs.narrow[use.member].emplace();
   }
   __builtin_unreachable();
 }

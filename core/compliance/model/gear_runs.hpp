@@ -37,21 +37,18 @@ struct GearRun {
 };
 
 struct FiniteElementRuns {
-  std::array<GearRun, 2> gears;  ///< pinion, wheel; by coarse_mesh() where the compliance is "fitted"
+  PerGear<GearRun> gears;  ///< by coarse_mesh() where the compliance is "fitted"
   /// By the default mesh, for an own fit, in addition to `gears`: gears outside the library of fits.
-  std::array<std::optional<GearRun>, 2> fine;
+  PerGear<std::optional<GearRun>> fine;
   /// By coarse_mesh(), with face and body of the fine run, where that face is narrower than the gear's own or the gear's body is not solid.
-  std::array<std::optional<GearRun>, 2> narrow;
+  PerGear<std::optional<GearRun>> narrow;
   /// As `gears` with rigid bodies; where ComplianceTask::rigid_bodies.
-  std::array<std::optional<GearRun>, 2> rigid_body;
+  PerGear<std::optional<GearRun>> rigid_body;
   double seconds{not_given};  ///< wall time in this build
 
-  const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
-  const std::optional<GearRun>& fine_run(Member m) const { return fine[m == Member::Pinion ? 0 : 1]; }
-  const std::optional<GearRun>& narrow_run(Member m) const { return narrow[m == Member::Pinion ? 0 : 1]; }
-  const std::optional<GearRun>& rigid_body_run(Member m) const { return rigid_body[m == Member::Pinion ? 0 : 1]; }
+  const GearRun& operator[](Member m) const { return gears[m]; }
   /// The run whose root stress counts: the finest with the gear's own face.
-  const GearRun& root_stress_run(Member m) const { return fine_run(m) && !narrow_run(m) ? *fine_run(m) : (*this)[m]; }
+  const GearRun& root_stress_run(Member m) const { return fine[m] && !narrow[m] ? *fine[m] : gears[m]; }
 };
 
 /// Solves both gears or takes them from the store. Gears that are alike but for their size are solved once; two that

@@ -55,9 +55,9 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
   if (is_structural) {
     const auto structure = [&](Member member, const Material& material) {
       GearStructure result{.compliance = runs[member].table, .youngs_modulus = material.youngs_modulus, .half_space = sections.half_space(member)};
-      if (const auto& rigid = runs.rigid_body_run(member)) result.on_rigid_body = rigid->table;
+      if (const auto& rigid = runs.rigid_body[member]) result.on_rigid_body = rigid->table;
       if (task.model == ComplianceModel::Fitted) {
-        auto& correction = structures.refinements[member == Member::Pinion ? 0 : 1];
+        auto& correction = structures.corrections[member];
         correction = gear_correction(task, runs, member, build);
         if (!correction->unknown.empty() && correction->fit.status != FitStatus::Converged) {
           structures.notes.push_back(std::string("the ") + name_of(member) + "'s fit stopped after " + std::to_string(correction->fit.iterations) +

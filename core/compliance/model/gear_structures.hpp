@@ -17,12 +17,10 @@ struct GearStructures {
   std::shared_ptr<const PairRootStress> root_stress;  ///< null where the task does not want it
   std::shared_ptr<const PairRimMotion> rim_motion;    ///< null unless `pair` has a gear on a web
   std::optional<FiniteElementRuns> finite_elements;
-  std::array<std::optional<GearCorrection>, 2> refinements;  ///< pinion, wheel; of "fitted" only
+  PerGear<std::optional<GearCorrection>> corrections;  ///< of "fitted" only
   /// On the pair's other flanks, where they are another model: task_of_other_flanks(). `pair` and `root_stress` know them as well.
   std::shared_ptr<const GearStructures> other_flanks;
   std::vector<std::string> notes;  ///< library_notes(), and fits that did not converge
-
-  const std::optional<GearCorrection>& correction(Member m) const { return refinements[m == Member::Pinion ? 0 : 1]; }
 };
 
 /// Solves, fits and joins what the task asks for. Root stress needs a finite-element run of both gears with every

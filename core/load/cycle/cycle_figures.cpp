@@ -1,7 +1,6 @@
 #include "core/load/cycle/cycle_figures.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "core/contact/unloaded/transmission_error.hpp"
@@ -71,67 +70,26 @@ double unseen_rise(const std::vector<double>& samples) {
   return highest - seen;
 }
 
-SampledCycle::SampledCycle(const MeshModel& model, const LoadedCycle& cycle)
-    : mean_line_load_(model.mean_line_load(cycle.force)), failures_(cycle.failures) {
+CycleFigures figures_of(const LoadedCycle& cycle, const CycleSummary& summary) {
+  std::vector<double> te;
+  double approach = 0.0;
   for (const LoadedPosition& position : cycle.positions) {
-    te_.push_back(position.load.transmission_error);
-    peak_load_.push_back(0.0);
-    peak_stress_.push_back(0.0);
-    if (!position.load.usable()) continue;
-    approach_ += position.load.transmission_error - position.gap.total.minCoeff();
-    peak_load_.back() = position.peak_load.maxCoeff();
-    peak_stress_.back() = position.contact_stress.maxCoeff();
+    te.push_back(position.load.transmission_error);
+    if (position.load.usable()) approach += position.load.transmission_error - position.gap.total.minCoeff();
   }
-}
-
-SampledCycle SampledCycle::joined(const SampledCycle& between) const {
-  assert(between.te_.size() == te_.size());
-  SampledCycle both = *this;
-  const auto interleave = [](std::vector<double>& into, const std::vector<double>& a, const std::vector<double>& b) {
-    into.clear();
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      into.push_back(a[i]);
-      into.push_back(b[i]);
-    }
-  };
-  interleave(both.te_, te_, between.te_);
-  interleave(both.peak_stress_, peak_stress_, between.peak_stress_);
-  interleave(both.peak_load_, peak_load_, between.peak_load_);
-  both.approach_ += between.approach_;
-  both.failures_ += between.failures_;
-  return both;
-}
-
-CycleFigures SampledCycle::figures() const {
-  const double n = static_cast<double>(te_.size());
   CycleFigures figures;
-  const auto [low, high] = std::ranges::minmax(te_);
-  double sum = 0.0;
-  for (double te : te_) sum += te;
-  figures[Figure::TeMean] = sum / n;
-  figures[Figure::TePeakToPeak] = high - low;
-  const std::vector<double> harmonics = harmonic_amplitudes(te_);
+  figures[Figure::TeMean] = summary.te_mean;
+  figures[Figure::TePeakToPeak] = summary.te_peak_to_peak;
+  const std::vector<double> harmonics = harmonic_amplitudes(te);
   for (std::size_t k = 0; k < figure_harmonics; ++k) {
     figures.value[static_cast<std::size_t>(Figure::TeHarmonic1) + k] = k < harmonics.size() ? harmonics[k] : not_given;
-    figures.te_phasor[k] = k < harmonics.size() ? harmonic_phasor(te_, static_cast<int>(k) + 1) : not_given;
+    figures.te_phasor[k] = k < harmonics.size() ? harmonic_phasor(te, static_cast<int>(k) + 1) : not_given;
   }
-  figures[Figure::PeakContactStress] = *std::ranges::max_element(peak_stress_);
-  figures[Figure::PeakLineLoad] = *std::ranges::max_element(peak_load_);
-  figures[Figure::LoadFactor] = figures[Figure::PeakLineLoad] / mean_line_load_;
-  figures.mean_approach = approach_ / n;
+  figures[Figure::PeakContactStress] = summary.peak_contact_stress;
+  figures[Figure::PeakLineLoad] = summary.peak_line_load;
+  figures[Figure::LoadFactor] = summary.load_factor;
+  figures.mean_approach = approach / static_cast<double>(te.size());
   return figures;
-}
-
-PerFigure SampledCycle::unseen() const {
-  PerFigure rise{};
-  const auto of = [&rise](Figure f) -> double& { return rise[static_cast<std::size_t>(f)]; };
-  std::vector<double> mirrored;
-  for (double te : te_) mirrored.push_back(-te);
-  of(Figure::TePeakToPeak) = unseen_rise(te_) + unseen_rise(mirrored);
-  of(Figure::PeakContactStress) = unseen_rise(peak_stress_);
-  of(Figure::PeakLineLoad) = unseen_rise(peak_load_);
-  of(Figure::LoadFactor) = of(Figure::PeakLineLoad) / mean_line_load_;
-  return rise;
 }
 
 }  // namespace flankwright

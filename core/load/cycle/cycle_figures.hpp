@@ -66,27 +66,7 @@ PerFigure figure_differences(const CycleFigures& figures, const CycleFigures& re
 /// not misled by samples that meet a kink by chance.
 double unseen_rise(const std::vector<double>& samples);
 
-/// Positions of a cycle at equal distances, as far as the figures go; two of the same number that lie between each other's join to one
-/// of twice as many.
-class SampledCycle {
- public:
-  SampledCycle(const MeshModel& model, const LoadedCycle& cycle);
-
-  /// The cycle joined with positions between its own, each after its own one.
-  SampledCycle joined(const SampledCycle& between) const;
-  int positions() const { return static_cast<int>(te_.size()); }
-  int failures() const { return failures_; }
-  CycleFigures figures() const;
-  /// Possible distance of extremes above (or below) all positions, by unseen_rise(); 0 for figures that are no
-  /// extremes. In the figures' units.
-  PerFigure unseen() const;
-
- private:
-  std::vector<double> te_;                       ///< f_t [mm]
-  std::vector<double> peak_stress_, peak_load_;  ///< of each position [MPa], [N/mm]
-  double approach_{0.0};                         ///< sum over the positions [mm]
-  double mean_line_load_{not_given};             ///< MeshModel::mean_line_load() [N/mm]
-  int failures_{0};
-};
+/// Of a cycle at equal distances; its peaks are those of the summary, which may have been sought between the positions.
+CycleFigures figures_of(const LoadedCycle& cycle, const CycleSummary& summary);
 
 }  // namespace flankwright

@@ -141,7 +141,7 @@ void add_moved_places(const std::vector<MovedMesh>& moved, double force, LoadedP
 /// Without root stress.
 /// @param which  positions, rising; the others stay as they begin
 LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, const FlankCondition& condition, double pinion_torque,
-                    const std::vector<MeshParameter>& parameters, const LoadOptions& options, const LoadedCycle* earlier) {
+                    const std::vector<MeshParameter>& parameters, const LoadedCycle* earlier) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
   cycle.closes = !teeth_differ(condition.error.pinion) && !teeth_differ(condition.error.wheel);
@@ -172,10 +172,10 @@ LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, 
     };
     const bool has_edges = std::ranges::any_of(at.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
     if (has_edges) moved_edges = laws_with_moved_edges(at, position.gap, load_bounds(at, position.gap, cycle.force, likely_approach));
-    position.load = solver.solve(problem_of(), options, start);
+    position.load = solver.solve(problem_of(), {}, start);
     if (has_edges && position.load.usable() && carries_beyond(position, likely_approach)) {
       moved_edges = laws_with_moved_edges(at, position.gap, load_bounds(at, position.gap, cycle.force, unlimited));
-      position.load = solver.solve(problem_of(), options, start);
+      position.load = solver.solve(problem_of(), {}, start);
     }
     const LoadProblemView problem = problem_of();
     const std::vector<ContactLaw>& laws = problem.laws;
@@ -203,10 +203,10 @@ LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, 
 }  // namespace
 
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters,
-                          const LoadOptions& options, RootStresses root_stresses, const LoadedCycle* earlier) {
+                          RootStresses root_stresses, const LoadedCycle* earlier) {
   std::vector<std::size_t> all(model.positions.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  LoadedCycle cycle = analyse(model, all, condition, pinion_torque, parameters, options, earlier);
+  LoadedCycle cycle = analyse(model, all, condition, pinion_torque, parameters, earlier);
   if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);
   return cycle;
 }
@@ -214,7 +214,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
 LoadedCycle analyse_positions(const MeshModel& model, std::span<const std::size_t> positions, const FlankCondition& condition, double pinion_torque,
                               RootStresses root_stresses, const LoadedCycle* earlier) {
   assert(std::ranges::is_sorted(positions) && (positions.empty() || positions.back() < model.positions.size()));
-  LoadedCycle cycle = analyse(model, positions, condition, pinion_torque, {}, {}, earlier);
+  LoadedCycle cycle = analyse(model, positions, condition, pinion_torque, {}, earlier);
   if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);
   return cycle;
 }

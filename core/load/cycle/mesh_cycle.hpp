@@ -29,8 +29,8 @@ enum class RootStresses { WithLoads, Later };
 ///                       depends on it, and digits beyond the tolerance
 /// @throws InvalidInput  where a parameter moves the mesh and the model has no perturbed meshes along it
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {},
-                          RootStresses root_stresses = RootStresses::WithLoads, const LoadedCycle* earlier = nullptr);
+                          const std::vector<MeshParameter>& parameters = {}, RootStresses root_stresses = RootStresses::WithLoads,
+                          const LoadedCycle* earlier = nullptr);
 
 /// Some positions of the same, without derivatives; the others stay as they begin, with no loads. What holds at these holds in the whole cycle to the
 /// tolerance.

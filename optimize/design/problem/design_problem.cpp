@@ -205,9 +205,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
   const double torque = task_.scenes[static_cast<std::size_t>(scene)].torque;
   const FlankCondition of_scene = condition(scene, modification);
   ++*cycles_;
-  const auto analyse = [&](const MeshModel& mesh_model) {
-    return analyse_cycle(mesh_model, of_scene, torque, parameters, {}, root_stresses_, earlier);
-  };
+  const auto analyse = [&](const MeshModel& mesh_model) { return analyse_cycle(mesh_model, of_scene, torque, parameters, root_stresses_, earlier); };
   if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
   const MeshPlaced placed = [this](const MeshPlacement& placement) { return made_mesh(placement); };
   return analyse(with_perturbed_meshes(model(scene), placed, parameters));

@@ -31,7 +31,7 @@ Judged judge(const GearPair& gears, const FlankCondition& condition, double torq
     const MeshModel finer = mesh(2 * intervals, phases);
     hold_against_finer(model, cycle, finer, analyse_cycle(finer, condition, torque), resolved);
   }
-  return {resolved, figures_of(model, cycle, resolved.summary)};
+  return {resolved, figures_of(cycle, resolved.summary)};
 }
 
 }  // namespace

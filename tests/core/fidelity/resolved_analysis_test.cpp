@@ -44,9 +44,7 @@ LoadCase random_case(unsigned seed, double widest = 15.0) {
   return drawn;
 }
 
-CycleFigures figures_of(const ResolvedAnalysis& analysis) {
-  return flankwright::figures_of(analysis.model, analysis.cycle, analysis.resolved.summary);
-}
+CycleFigures figures_of(const ResolvedAnalysis& analysis) { return flankwright::figures_of(analysis.cycle, analysis.resolved.summary); }
 
 int cost_of(const ResolvedAnalysis& analysis) {
   return analysis.resolution.quadrature.intervals * static_cast<int>(analysis.resolution.phases.size());

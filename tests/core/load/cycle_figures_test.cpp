@@ -32,42 +32,14 @@ std::vector<double> sampled(const Curve& curve, int n) {
 
 }  // namespace
 
-TEST_CASE("Figures of a cycle are those of its summary", "[core][load][cycle-figures]") {
-  const GearPair gears = mesh_cases::pair(18, 54, 20, 5, 50);
-  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(16)});
-  const LoadedCycle cycle = analyse_cycle(model, crowned_and_tilted(), mesh_cases::torque_for(gears, 120));
-  const CycleSummary summary = summarise(model, cycle);
-  const CycleFigures figures = SampledCycle(model, cycle).figures();
-  constexpr double kRoundOff = 1e-12;
-  CHECK(figures[Figure::TeMean] == Approx(summary.te_mean).epsilon(kRoundOff));
-  CHECK(figures[Figure::TePeakToPeak] == Approx(summary.te_peak_to_peak).epsilon(kRoundOff));
-  CHECK(figures[Figure::TeHarmonic3] == Approx(summary.te_harmonics[2]).epsilon(kRoundOff));
-  CHECK(figures[Figure::PeakContactStress] == summary.peak_contact_stress);
-  CHECK(figures[Figure::PeakLineLoad] == summary.peak_line_load);
-  CHECK(figures[Figure::LoadFactor] == Approx(summary.load_factor).epsilon(kRoundOff));
-  CHECK(largest(figure_errors(figures, figures)) == 0.0);
-}
-
-TEST_CASE("Positions between others join them to the cycle of twice as many", "[core][load][cycle-figures]") {
-  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
-  const auto at = [&](const std::vector<double>& phases) {
-    const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 2}, phases});
-    return SampledCycle(model, analyse_cycle(model, crowned_and_tilted(), mesh_cases::torque_for(gears, 200)));
-  };
-  std::vector<double> odd;
-  for (int i = 1; i < 24; i += 2) odd.push_back(i / 24.0);
-  const CycleFigures joined = at(equally_spaced_phases(12)).joined(at(odd)).figures(), whole = at(equally_spaced_phases(24)).figures();
-  constexpr double kSolver = 1e-9;  // loads start from other neighbours
-  CHECK(largest(figure_errors(joined, whole)) < kSolver);
-}
-
 TEST_CASE("A gap common to the whole mesh is no deflection that the mean's error could hide in", "[core][load][cycle-figures]") {
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const auto at = [&](double apart, double torque) {
     FlankCondition condition = crowned_and_tilted();
     condition.misalignment.centre_distance = apart;
     const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 2}, equally_spaced_phases(12)});
-    return SampledCycle(model, analyse_cycle(model, condition, torque)).figures();
+    const LoadedCycle cycle = analyse_cycle(model, condition, torque);
+    return figures_of(cycle, summarise(model, cycle));
   };
   const double torque = mesh_cases::torque_for(gears, 200);
   for (double apart : {0.0, 0.2}) {

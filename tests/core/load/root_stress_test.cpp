@@ -78,7 +78,7 @@ TEST_CASE("Root stress left for later is the same to the bit", "[core][load][roo
   const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(3)});
   const double torque = mesh_cases::torque_for(gears, 100);
   const LoadedCycle with_loads = analyse_cycle(model, {}, torque);
-  LoadedCycle later = analyse_cycle(model, {}, torque, {}, {}, RootStresses::Later);
+  LoadedCycle later = analyse_cycle(model, {}, torque, {}, RootStresses::Later);
   for (const LoadedPosition& position : later.positions) CHECK(position.root_stress.size() == 0);
   add_root_stress(model, later);
   for (std::size_t k = 0; k < later.positions.size(); ++k) CHECK(later.positions[k].root_stress == with_loads.positions[k].root_stress);

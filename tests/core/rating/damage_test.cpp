@@ -97,7 +97,7 @@ TEST_CASE("Root damage takes the largest stress of each fillet point over the pa
 
 TEST_CASE("Root damage without root stress is refused", "[core][rating][life]") {
   const DamagedPair pair;
-  const LoadedCycle cycle = analyse_cycle(pair.model, {}, mesh_cases::torque_for(pair.gears, 100), {}, {}, RootStresses::Later);
+  const LoadedCycle cycle = analyse_cycle(pair.model, {}, mesh_cases::torque_for(pair.gears, 100), {}, RootStresses::Later);
   const SnCurve curve = root_sn_curve(LifeFactors::CaseHardened, 500.0);
   CHECK_THROWS_AS(root_damage(pair.model, {{&cycle, 1.0}}, Member::Pinion, curve, fillet_points(pair.model, Member::Pinion)), std::runtime_error);
 }

@@ -26,7 +26,8 @@ std::string random_pair(unsigned seed) {
 CycleFigures figures(const std::string& pair, const std::string& compliance) {
   const StudyResults results = run_study(parse_study(
       pair + "positions = 32\n[fidelity]\nquadrature = { rule = \"graded\", intervals = 12 }\ncompliance = \"" + compliance + "\"\n", "pair.toml"));
-  return SampledCycle(results.models.front(), results.loaded.front().cycle).figures();
+  const LoadedCycle& cycle = results.loaded.front().cycle;
+  return figures_of(cycle, summarise(results.models.front(), cycle));
 }
 
 }  // namespace

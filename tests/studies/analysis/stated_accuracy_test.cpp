@@ -50,7 +50,7 @@ std::string random_scene(unsigned seed) {
 
 CycleFigures shown(const StudyResults& results) {
   const LoadedResult& loaded = results.loaded.front();
-  return figures_of(results.models.front(), loaded.cycle, loaded.summary);
+  return figures_of(loaded.cycle, loaded.summary);
 }
 
 struct Honesty {

@@ -324,12 +324,12 @@ TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][f
   const ScratchCache cache;
   const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "17"}};
   const StudyResults first = run_twins(twins, by_fit);
-  const std::string file = first.structures.correction(Member::Pinion)->file;
+  const std::string file = first.structures.corrections[Member::Pinion]->file;
   std::ofstream(file, std::ios::app) << "more";
   const StudyResults second = run_twins(twins, by_fit);
-  CHECK(!second.structures.correction(Member::Pinion)->from_cache);
+  CHECK(!second.structures.corrections[Member::Pinion]->from_cache);
   CHECK(second.structures.finite_elements->gears[0].from_cache);
-  CHECK(second.structures.correction(Member::Pinion)->fit.coefficients == first.structures.correction(Member::Pinion)->fit.coefficients);
+  CHECK(second.structures.corrections[Member::Pinion]->fit.coefficients == first.structures.corrections[Member::Pinion]->fit.coefficients);
   CHECK_THAT(second.structures.notes.back(), Catch::Contains("is not used"));
 }
 

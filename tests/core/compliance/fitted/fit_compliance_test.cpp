@@ -67,7 +67,6 @@ TEST_CASE("Kernels come closer to unseen values of plates on an elastic base tha
   const ThesisFitResult thesis = fit_thesis_form({&fitted, 1}, ThesisBody::Separate);
   REQUIRE(kernels.fit);
   REQUIRE(thesis.fit);
-  CHECK(kernels.asymmetry == 0);
   const ResidualStatistics ours = residual_statistics(*kernels.fit, {&unseen, 1}).front();
   const ResidualStatistics theirs = residual_statistics(*thesis.fit, {&unseen, 1}).front();
   // Model: the plate's root, clamped, is harder than a tooth's.
