@@ -119,14 +119,14 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
                                                  {"wheel.face_width", "8"},
                                                  {"load.torque", "160"},
                                                  {"material.youngs_modulus", "206000"}});
-  CHECK(doubled.structures.finite_elements->gears[0].from_cache);
+  CHECK(doubled.structures.finite_elements->gears.pinion.from_cache);
   CHECK(doubled.loaded[0].summary.te_mean == Approx(2 * kept.loaded[0].summary.te_mean).epsilon(1e-9));  // same stress
 
   // Teeth that do not know of each other yield less: their loads push on their neighbours' flanks.
   const StudyResults alone =
       run_twins(twins, {{"fidelity.effects", R"(["bending", "gear_body_compliance", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
-  CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do
+  CHECK(alone.structures.finite_elements->gears.pinion.from_cache);  // a run that tells more will do
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("A study's root stress: by finite elements, whatever the compliance", 
   // Asked for by an expectation, with slices for the loads.
   const StudyResults slices =
       run_twins(twins + "[expect]\n\"loaded.summary.peak_root_stress_MPa\" = { max = 1000 }\n", {{"fidelity.compliance", "\"thin_slice\""}});
-  CHECK(slices.structures.finite_elements->gears[0].from_cache);
+  CHECK(slices.structures.finite_elements->gears.pinion.from_cache);
   CHECK(!slices.structures.pair);
   CHECK(slices.loaded[0].summary.peak_root_stress == Approx(summary.peak_root_stress).epsilon(0.25));  // model: the loads
   const StudyResults without = run_twins(twins, {{"fidelity.compliance", "\"thin_slice\""}});
@@ -218,7 +218,7 @@ constraints = { "peak_contact_stress" = { max = 5000 } }
 )",
                                           {{"fidelity.compliance", "\"thin_slice\""}});
   REQUIRE(designed.found<OptimiseResults>() != nullptr);
-  CHECK(designed.structures.finite_elements->gears[1].from_cache);
+  CHECK(designed.structures.finite_elements->gears.wheel.from_cache);
   CHECK(optimised(designed).design.after.objective < optimised(designed).design.before.objective);
 }
 
@@ -315,7 +315,7 @@ TEST_CASE("A gear outside the library of fits has its own fit, to the run that f
   CHECK(cache.files().size() == 3);
 
   const StudyResults fe = run_twins(twins, {{"pair.pressure_angle", "17"}});
-  CHECK(fe.structures.finite_elements->gears[0].from_cache);
+  CHECK(fe.structures.finite_elements->gears.pinion.from_cache);
   CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));                    // model
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.005));  // by its loads
 }
@@ -328,7 +328,7 @@ TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][f
   std::ofstream(file, std::ios::app) << "more";
   const StudyResults second = run_twins(twins, by_fit);
   CHECK(!second.structures.corrections[Member::Pinion]->from_cache);
-  CHECK(second.structures.finite_elements->gears[0].from_cache);
+  CHECK(second.structures.finite_elements->gears.pinion.from_cache);
   CHECK(second.structures.corrections[Member::Pinion]->fit.coefficients == first.structures.corrections[Member::Pinion]->fit.coefficients);
   CHECK_THAT(second.structures.notes.back(), Catch::Contains("is not used"));
 }
