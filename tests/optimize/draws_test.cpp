@@ -136,6 +136,45 @@ TEST_CASE("The model of a draw with two load cases is exact at the design analys
   }
 }
 
+TEST_CASE("A smoothed quantile is the mean of the quantiles within two standard errors, at most four fifths of the tail",
+          "[optimize][design][scatter]") {
+  constexpr int many = 2000;
+  constexpr double level = 0.9;
+  DesignTask task = drawn({Aggregate::Quantile, 2.0, level}, {State{}});
+  const DesignScene listed = task.scenes.front();
+  task.scenes.assign(many, listed);
+  for (int i = 0; i < many; ++i) task.scenes[static_cast<std::size_t>(i)].draw = i;
+  const DesignProblem problem(task);
+  StatisticModel model(problem, task.combined_objective());
+  // Measures of an exponential distribution, in another order than that of their size.
+  std::vector<double> measures;
+  for (int i = 0; i < many; ++i) measures.push_back(-std::log(1.0 - ((7 * i) % many + 0.5) / many));
+  const double step = 1.0 / (many * (1.0 - level));  // discretisation: from one measure to the next at this level
+  CHECK(model.statistic(measures) == tests::about(-std::log(1.0 - level), step));
+  double last = model.statistic(measures);
+  for (int told_apart : {500, 200, 2}) {
+    CAPTURE(told_apart);
+    model.smooth(told_apart);
+    const double band = std::min(2.0 * std::sqrt(level * (1.0 - level) / told_apart), 0.8 * (1.0 - level));
+    // The integral of -log(1 - q) is (1 - q) (log(1 - q) - 1).
+    const auto integral = [](double q) { return (1.0 - q) * (std::log(1.0 - q) - 1.0); };
+    const double mean = (integral(level + band) - integral(level - band)) / (2.0 * band);
+    CHECK(model.statistic(measures) == tests::about(mean, 5.0 * step));  // the highest of the levels is less finely divided
+    CHECK(model.statistic(measures) > last);                             // a tail that rises ever more steeply raises the mean
+    last = model.statistic(measures);
+    const std::vector<double> by = model.statistic_weights(measures);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < by.size(); ++i) {
+      sum += by[i];
+      if (by[i] != 0.0) CHECK(std::abs(1.0 - std::exp(-measures[i]) - level) <= band + 1.0 / many);
+    }
+    constexpr double round_off = 1e-12;
+    CHECK(sum == Approx(1.0).epsilon(round_off));
+  }
+  model.exact();
+  CHECK(model.statistic(measures) == tests::about(-std::log(1.0 - level), step));
+}
+
 TEST_CASE("What a drawn gear differs by is ground on it like its design, whichever flank it loads", "[optimize][design][scatter]") {
   const ModificationParameter slope = parameter_of("lead_slope");
   DesignScene drawn_gear = design_tasks::spur({0.0}).scenes.front(), exact = drawn_gear;
