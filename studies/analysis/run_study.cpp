@@ -8,7 +8,8 @@ namespace {
 
 /// Nothing where no accuracy is asked for, or nothing is loaded.
 std::optional<FidelityChoice> model_choice(const Study& study, const ProgressReport& progress) {
-  if (!study.fidelity.accuracy || study.fidelity.compliance == ComplianceModel::Rigid || study.task->single_gears) return std::nullopt;
+  if (!study.fidelity.accuracy || study.fidelity.compliance == ComplianceModel::Rigid) return std::nullopt;
+  if (study.task->single_gears || study.task->loads_nothing) return std::nullopt;
   LevelRunner runner(StudyRun(study, progress).level_subject(), progress);
   if (runner.subject().scenes.empty()) return std::nullopt;
   return choose_models(runner, progress);

@@ -31,6 +31,7 @@ struct Task {
   const char* meaning{nullptr};  ///< one sentence of Markdown that heads its keys in the key reference, with a link from studies/
 
   bool single_gears{false};     ///< concerns gears by themselves: their finite elements are solved; scenes, loads and effects do not count
+  bool loads_nothing{false};    ///< shows what follows from the gears' sizes: no models are chosen for an accuracy
   bool one_design{false};       ///< shows each load case in full: refined peaks, derivatives, effects left out by an accuracy
   bool compares_bodies{false};  ///< needs the compliance of rigid gear bodies beside that of the given ones
 

@@ -72,6 +72,11 @@ TEST_CASE("The task geometry analyses nothing and prints the sizes of results.js
   CHECK(results_document(results).at("geometry").at("pinion").at("reference_diameter_mm").get<double>() ==
         Approx(reference_diameter).epsilon(1e-14));  // round-off
   CHECK_THAT(summary_table(results), Catch::Contains("reference diameter") && Catch::Contains("82.8221") && Catch::Contains("eps_alpha"));
+  // An accuracy has nothing that it could be of.
+  const StudyResults within =
+      run_study(parse_study(study_template("geometry") + "[load]\ntorque = 100\n[fidelity]\naccuracy = \"1 %\"\n", "geometry.toml"));
+  CHECK_FALSE(within.fidelity_choice);
+  CHECK(within.loaded.empty());
 }
 
 }  // namespace flankwright::studies
