@@ -1,18 +1,24 @@
 // The starts of a search, the loss by rounding to the grinder's steps, and the Pareto front of several objectives.
 
+/** By how much a point of the front exceeds a limit [%]; 0 where it keeps all of them within the tolerance of the search. */
+const beyond_limit = (point) => (point.constraint_violation > 1e-6 ? 100 * point.constraint_violation : 0);
+
 /** The front over two of its objectives, by their indices in the list; with two objectives the points are joined. */
 function draw_front(plot, front, [across, up], height = 320) {
   const objectives = list(front.objectives).map(record), [first, second] = [objectives[across], objectives[up]];
   const named = ({ name, unit }) => (pretty_unit(unit) ? `${words(name)} [${pretty_unit(unit)}]` : words(name));
   const points = list(front.points).map(record)
-    .map((point) => ({ x: point.values[across], y: point.values[up], dominated: point.dominated,
-      note: objectives.length > 2 ? objectives.filter((_, i) => i !== across && i !== up)
-        .map((other) => `${words(other.name)} ${fmt(point.values[objectives.indexOf(other)])} ${pretty_unit(other.unit)}`).join(", ") : null }));
+    .map((point) => ({ x: point.values[across], y: point.values[up], dominated: point.dominated, beyond: beyond_limit(point),
+      note: [...objectives.filter((_, i) => i !== across && i !== up)
+        .map((other) => `${words(other.name)} ${fmt(point.values[objectives.indexOf(other)])} ${pretty_unit(other.unit)}`),
+        ...(beyond_limit(point) > 0 ? [`beyond a limit by ${fmt(beyond_limit(point), 2)} %`] : [])].join(", ") || null }));
   const best = points.filter((point) => !point.dominated);
   const colour = css_colour("after");
   const curves = [
     { label: "front", points: objectives.length === 2 ? best : [], colour: faded(colour, 0.45), width: 1.2, quiet: true, order: 2 },
-    { label: "compromise", points: best, colour, scatter: true, size: 5 },
+    { label: "compromise", points: best.filter((point) => point.beyond === 0), colour, scatter: true, size: 5 },
+    { label: "beyond a limit", points: best.filter((point) => point.beyond > 0), colour: css_colour("bad"), scatter: true, size: 5,
+      hollow: true, fill: "transparent" },
     { label: "dominated", points: points.filter((point) => point.dominated), colour: css_colour("before"), scatter: true,
       hollow: true, fill: "transparent" },
   ];
@@ -27,15 +33,13 @@ function draw_front(plot, front, [across, up], height = 320) {
 
 function front_table(body, front, units) {
   const paths = Object.keys(record(record(list(front.points)[0]).variables));
-  const tolerance = 1e-6;  // of the search: what exceeds a limit by less keeps it
-  const beyond = (point) => (point.constraint_violation > tolerance ? 100 * point.constraint_violation : 0);
-  const limited = list(front.points).map(record).some((point) => beyond(point) > 0);
+  const limited = list(front.points).map(record).some((point) => beyond_limit(point) > 0);
   table(body, {
     title: "Compromises",
     columns: [...list(front.objectives).map(record).map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit) })),
       ...paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]) })), ...(limited ? [{ label: "Beyond a limit by", unit: "%" }] : [])],
     rows: list(front.points).map(record).map((point) => [...point.values, ...paths.map((path) => settled(point.variables[path], units[path])),
-      ...(limited ? [beyond(point)] : [])]),
+      ...(limited ? [beyond_limit(point)] : [])]),
   });
 }
 
