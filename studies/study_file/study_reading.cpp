@@ -215,17 +215,8 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
       return read_word_list(key, node);
     case ValueKind::TableList:  // its tables' keys have rows of their own
     case ValueKind::TableListOrFile:
-    case ValueKind::Scenes:
-    case ValueKind::Objective:
-    case ValueKind::Objectives:
-    case ValueKind::Variables:
-    case ValueKind::Ties:
-    case ValueKind::KeyPairs:
-    case ValueKind::Distributions:
-    case ValueKind::Parameters:
-    case ValueKind::Constraints:
-    case ValueKind::Expectations:
-      return {};  // read by study_tables
+    case ValueKind::Free:
+      return {};  // by readers of their own
   }
   return {};
 }
