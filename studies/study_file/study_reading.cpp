@@ -121,6 +121,11 @@ void StudyReading::refuse_key(const std::string& path, const std::string& allowe
   refuse(where(path), path, match == nullptr ? node_at(document.root(), path) : match->node, allowed);
 }
 
+void StudyReading::refuse_value(const std::string& path, const std::string& value, const std::string& allowed) {
+  const Position at = where(path);
+  problems.push_back({at.file, at.line, at.column, path, value, allowed});
+}
+
 const Match* StudyReading::find(const std::string& path) const {
   const auto found = matches.find(path);
   return found == matches.end() ? nullptr : &found->second;
