@@ -103,9 +103,7 @@ int run_command(const RunOptions& options) {
   const auto [study, folder] = opened(options);
   if (shard && study.task != &find_task("sweep")) throw InvalidInput("--shard", study.task->name, "a study of the task \"sweep\"");
   Progress progress;
-  const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
-    progress.show(label, done, total, remark);
-  };
+  const ProgressReport report = progress.report();
   if (shard) return run_shard(study, folder, *shard, report);
   FinishedRun run = finish_study(study, folder, report);
   progress.finish();
