@@ -14,13 +14,6 @@ namespace {
 
 constexpr double per_mm = units::um;  // um per mm, in mm per mm
 
-/// What the search changes: variables and what is tied to them.
-std::vector<DesignVariable> changed(const OptimiseTable& optimise) {
-  std::vector<DesignVariable> all = optimise.variables;
-  for (const LinkingConstraint& link : optimise.links) all.push_back(link.linked);
-  return all;
-}
-
 ModificationConstraint amount_limit(const DesignVariable& v, double largest) {
   ModificationConstraint limit{.name = "largest amount of " + plain_name(v.path), .terms = {{v.member, v.parameter, 1.0}}, .maximum = largest};
   if (v.lower < 0.0) limit.minimum = -largest;
@@ -64,7 +57,7 @@ std::vector<SchemaKey> grinding_limit_keys() {
 
 void read_grinding_limits(StudyReading& reading) {
   OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
-  const std::vector<DesignVariable> varied = changed(optimise);
+  const std::vector<DesignVariable> varied = optimise.varied();
   if (optimise.largest_amount) {
     for (const DesignVariable& v : varied) {
       if (describe(v.parameter).kind != ParameterKind::Amount) continue;

@@ -47,12 +47,7 @@ void read_optimise_tables(StudyReading& reading) {
   read_scatter(reading);
 }
 
-std::vector<DesignVariable> varied_modifications(const Study& study) {
-  const OptimiseTable& asked = study.table<OptimiseTable>();
-  std::vector<DesignVariable> all = asked.variables;
-  for (const LinkingConstraint& link : asked.links) all.push_back(link.linked);
-  return all;
-}
+std::vector<DesignVariable> varied_modifications(const Study& study) { return study.table<OptimiseTable>().varied(); }
 
 /// Variables, and what is tied to them, count as modifications from the start, even where their first value is 0; of a compensation the least counts, which leaves
 /// most twist. What scatters counts as well, with the design as it is given and with the variables.
