@@ -103,6 +103,19 @@ void note_unused_keys(const Study& study, std::vector<std::string>& notes) {
   note("unit.reference_torque", !unit.meshes.empty() || !unit.loads.empty(), "the unit has neither meshes nor loads that grow with the torque");
 }
 
+/// Tables of other tasks in a study that names no task. One that names its task may keep them for another run.
+void note_unused_tables(const Study& study, std::vector<std::string>& notes) {
+  const auto is_given = [&](const auto& is_key) {
+    return std::ranges::any_of(study.given, [&](const GivenValue& given) { return is_key(given.key); });
+  };
+  if (is_given([](const std::string& key) { return key == "task"; })) return;
+  for (const Task* task : registered_tasks()) {
+    const std::string table = std::string(task->name) + ".";
+    if (task == study.task || !is_given([&](const std::string& key) { return key.starts_with(table); })) continue;
+    notes.push_back(fmt::format("the study has [{0}] but no task, so it is analysed: task = \"{0}\" would use it", task->name));
+  }
+}
+
 /// What of a signal loads no tooth of this flank.
 void note_signal(const Study& study, std::vector<std::string>& notes) {
   if (!study.signal) return;
@@ -264,6 +277,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
   }
   note_unused_keys(study, notes);
+  note_unused_tables(study, notes);
   note_signal(study, notes);
   note_reversed_loads(study, notes);
   note_load_factors(study, notes);

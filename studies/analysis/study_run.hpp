@@ -123,7 +123,6 @@ class StudyRun {
   std::map<std::tuple<MeshPlacement, int, bool>, PositionMemory> memories_;
   std::mutex memories_mutex_;
   double unloaded_seconds_{0.0};
-  LoadRater rater_;
   bool has_structure_{false};
 };
 

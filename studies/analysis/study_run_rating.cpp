@@ -56,16 +56,15 @@ void StudyRun::rate() {
       return mesh_at(condition, torque, shafts_deflect, by, quadrature);
     };
   };
-  std::vector<LoadRater::Case> cases;
+  std::vector<RatedCase> cases;
   for (const LoadedResult* loaded : rated) {
     const double opening = rim_opening(results_, results_.models[loaded->model], loaded->torque);
     cases.push_back({mesh_for(loaded->torque), loaded->condition, loaded->torque, opening});
   }
-  rater_.has_shafts = results_.shafts != nullptr;
-  if (!gradient_parameters().empty()) rater_.search = sharp_peaks;
-  rater_.seek(cases);
+  const std::vector<MeshParameter> parameters = gradient_parameters();
+  std::vector<LoadRating> ratings = rate_cases(cases, results_.shafts != nullptr, parameters.empty() ? PeakSearch{} : sharp_peaks, parameters);
   for (std::size_t i = 0; i < rated.size(); ++i) {
-    rated[i]->rating = rater_.rate(cases[i], gradient_parameters());
+    rated[i]->rating = std::move(ratings[i]);
     rated[i]->rating->quadrature = quadrature;
   }
   results_.steps.push_back({"load_factors", "peaks between the positions, of the perfect pair and of parts of the conditions", clock.seconds()});

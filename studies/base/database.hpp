@@ -26,7 +26,6 @@ class Database {
   void check(int code) const;
   [[noreturn]] void refuse(const std::string& allowed) const;
 
-  const std::filesystem::path& file() const { return shown_as_; }
   sqlite3* handle() const { return handle_.get(); }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,19 @@ inline bool has_control_character(std::string_view text) {
     if (control_character(text.substr(i)) > 0) return true;
   }
   return false;
+}
+
+/// A text with a blank for every control character of ASCII: in one line, as comments and names may stand in other files.
+inline std::string without_control_characters(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
+  return text;
+}
+
+/// A text without the white space at its ends, or without other characters there.
+inline std::string_view trimmed(std::string_view text, std::string_view around = " \t\r\n") {
+  const std::size_t first = text.find_first_not_of(around);
+  return first == std::string_view::npos ? std::string_view() : text.substr(first, text.find_last_not_of(around) - first + 1);
 }
 
 /// A text as a terminal may show it: a control character becomes its number, as \x1b. Line ends stay where `kept` has them.

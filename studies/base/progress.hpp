@@ -3,6 +3,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "core/base/progress_report.hpp"
 
@@ -20,6 +21,12 @@ class Progress {
 
   /// @param total  0 where it is not known how much there is to do: a count is shown instead of a bar
   void show(const std::string& label, int done, int total, const std::string& remark);
+  /// Shows what is reported to it, with these words before each label.
+  ProgressReport report(std::string before = {}) {
+    return [this, before = std::move(before)](const std::string& label, int done, int total, const std::string& remark) {
+      show(before + label, done, total, remark);
+    };
+  }
   /// Ends the bar's line, so that other text can follow.
   void finish();
 

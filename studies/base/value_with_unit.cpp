@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "studies/base/printable.hpp"
 
 namespace flankwright::studies {
 
@@ -194,15 +195,9 @@ std::string tidy_unit(std::string_view written) {
   return unit;
 }
 
-std::string_view trim(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
 /// Leading finite number of a text and the rest; nullopt where there is none. Independent of the locale.
 std::optional<std::pair<double, std::string_view>> split_number(std::string_view text) {
-  text = trim(text);
+  text = trimmed(text);
   const bool has_plus = text.starts_with('+');
   if (has_plus) text.remove_prefix(1);
   // A digit or a point must follow the sign: from_chars would also read "inf", "nan" and the second sign of "+-1".
@@ -237,7 +232,7 @@ double parse_value_with_unit(std::string_view text, Quantity quantity) {
 
 double parse_percentage(std::string_view text) {
   const auto parts = split_number(text);
-  if (!parts || trim(parts->second) != "%") throw InvalidInput("", std::string(text), "a percentage such as \"2 %\"");
+  if (!parts || trimmed(parts->second) != "%") throw InvalidInput("", std::string(text), "a percentage such as \"2 %\"");
   return parts->first / 100.0;
 }
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <array>
+#include <string>
 #include <vector>
+
+#include "studies/study/task.hpp"
 
 namespace flankwright::studies {
 
@@ -31,11 +33,18 @@ std::string names_of(const CLI::App& app) {
 
 /// Completions that may follow a word, where that is neither a file nor a free text.
 struct Choice {
-  const char *word, *values;
+  std::string word, values;
 };
-constexpr std::array choices{Choice{"new", "analyse optimise sweep accuracy fit slurm"}, Choice{"completion", "bash zsh man"},
-                             Choice{"docs", "start tutorial guide how-to keys results life accuracy gallery notation changes"},
-                             Choice{"--helix-slope", "non-datum datum"}, Choice{"--rexs-version", "1.0 1.1 1.2 1.3 1.4 1.5 1.6 1.7 2.0"}};
+
+std::vector<Choice> all_choices() {
+  std::string templates;
+  for (const Task* task : registered_tasks()) templates += std::string(task->name) + " ";
+  return {{"new", templates + "slurm"},
+          {"completion", "bash zsh man"},
+          {"docs", "start tutorial guide how-to keys results life accuracy gallery notation changes"},
+          {"--helix-slope", "non-datum datum"},
+          {"--rexs-version", "1.0 1.1 1.2 1.3 1.4 1.5 1.6 1.7 2.0"}};
+}
 
 /// Roff: backslashes, hyphens that are to stay hyphens, and no line that starts as a request.
 std::string roff(const std::string& text) {
@@ -66,7 +75,7 @@ std::string man_option(const CLI::Option& option) {
 
 std::string bash_completion(const CLI::App& app) {
   std::string cases, values;
-  for (const Choice& choice : choices) {
+  for (const Choice& choice : all_choices()) {
     values += fmt::format("    {}) COMPREPLY=($(compgen -W \"{}\" -- \"$current\")); return ;;\n", choice.word, choice.values);
   }
   for (const CLI::App* command : commands_of(app)) {
@@ -97,7 +106,7 @@ complete -o filenames -o bashdefault -F _flankwright flankwright
 
 std::string zsh_completion(const CLI::App& app) {
   std::string described, cases, values;
-  for (const Choice& choice : choices) values += fmt::format("    {}) compadd -- {}; return ;;\n", choice.word, choice.values);
+  for (const Choice& choice : all_choices()) values += fmt::format("    {}) compadd -- {}; return ;;\n", choice.word, choice.values);
   const auto quoted = [](std::string text) {
     for (std::size_t at = text.find('\''); at != std::string::npos; at = text.find('\'', at + 4)) text.replace(at, 1, "'\\''");
     return text;

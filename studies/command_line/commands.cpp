@@ -16,6 +16,7 @@
 #include "studies/results/accepted_expectations.hpp"
 #include "studies/results/expectations.hpp"
 #include "studies/base/progress.hpp"
+#include "studies/study/task.hpp"
 #include "studies/report/report.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/results/results_json.hpp"
@@ -24,7 +25,6 @@
 #include "studies/tasks/study_template.hpp"
 #include "studies/tasks/sweep/run_sweep.hpp"
 #include "studies/tasks/sweep/shards.hpp"
-#include "studies/tasks/sweep/sweep_task.hpp"
 #include "studies/results/tables.hpp"
 
 namespace flankwright::studies {
@@ -101,11 +101,9 @@ int run_shard(const Study& study, const fs::path& folder, Shard shard, const Pro
 int run_command(const RunOptions& options) {
   const std::optional<Shard> shard = options.shard.empty() ? std::nullopt : std::optional(parse_shard(options.shard));
   const auto [study, folder] = opened(options);
-  if (shard && study.task != &sweep_task) throw InvalidInput("--shard", study.task->name, "a study of the task \"sweep\"");
+  if (shard && study.task != &find_task("sweep")) throw InvalidInput("--shard", study.task->name, "a study of the task \"sweep\"");
   Progress progress;
-  const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
-    progress.show(label, done, total, remark);
-  };
+  const ProgressReport report = progress.report();
   if (shard) return run_shard(study, folder, *shard, report);
   FinishedRun run = finish_study(study, folder, report);
   progress.finish();
@@ -116,7 +114,7 @@ int run_command(const RunOptions& options) {
 
 int merge_command(const RunOptions& options) {
   const auto [study, folder] = opened(options);
-  if (study.task != &sweep_task) throw InvalidInput("task", study.task->name, "\"sweep\": shards are parts of a sweep");
+  if (study.task != &find_task("sweep")) throw InvalidInput("task", study.task->name, "\"sweep\": shards are parts of a sweep");
   StudyResults results = run_study(study);
   merge_shards(folder, study, SampleAnalysis(results).outputs());
   run_sweep(results, folder, {});

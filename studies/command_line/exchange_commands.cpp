@@ -37,7 +37,7 @@ void write_export(const fs::path& file, const std::string& text) {
 
 /// Writes every file of the series. The collections, which name the others, are written last and reported.
 void export_vtk(const Json& json, const fs::path& results, const fs::path& folder) {
-  for (const ExportedFile& file : vtk_series(json, results.string())) {
+  for (const NamedText& file : vtk_series(json, results.string())) {
     const fs::path path = folder / file.name;
     make_folder(path.parent_path());
     write_whole(path, file.text);
@@ -48,10 +48,7 @@ void export_vtk(const Json& json, const fs::path& results, const fs::path& folde
 /// Analyses the study once more: stiffness for small vibrations is a derivative that results have only where it was asked for.
 void export_dynamics(const Json& json, const fs::path& results, StoredFlanks flanks, const fs::path& folder, std::vector<std::string>& notes) {
   Progress progress;
-  const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
-    progress.show(label, done, total, remark);
-  };
-  DynamicsRun run = mesh_excitation(json, results.string(), flanks, report);
+  DynamicsRun run = mesh_excitation(json, results.string(), flanks, progress.report());
   progress.finish();
   for (const NamedText& file : dynamics_files(run)) write_export(folder / file.name, file.text);
   notes.insert(notes.end(), run.notes.begin(), run.notes.end());

@@ -117,9 +117,7 @@ int run_folder(const RunOptions& options) {
   Progress progress;
   for (const fs::path& study : studies) {
     const std::string which = fmt::format("{}/{} {}: ", lines.size() + 1, studies.size(), printable(study.stem().string()));
-    lines.push_back(run_one(study, folder / study.stem(), options, [&](const std::string& label, int done, int total, const std::string& remark) {
-      progress.show(which + label, done, total, remark);
-    }));
+    lines.push_back(run_one(study, folder / study.stem(), options, progress.report(which)));
     exit_code = std::max(exit_code, lines.back().exit_code);
   }
   progress.finish();

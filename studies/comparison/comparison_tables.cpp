@@ -2,14 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "core/base/error.hpp"
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/printable.hpp"
+#include "studies/base/value_with_unit.hpp"
 
 namespace flankwright::studies {
 
@@ -37,14 +36,11 @@ std::string line(const std::string& name, const std::string& unit, const std::ve
 }  // namespace
 
 double parse_tolerance(std::string_view text) {
-  double value = not_given;
-  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  std::string_view rest = text.substr(static_cast<std::size_t>(end - text.data()));
-  rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
-  if (status != std::errc{} || rest != "%" || !(value >= 0.0) || !std::isfinite(value)) {
-    throw InvalidInput("--tolerance", std::string(text), "a percentage of at least 0, such as 1%");
+  try {
+    if (const double value = parse_percentage(text); value >= 0.0) return value;
+  } catch (const InvalidInput&) {  // it is no percentage
   }
-  return value / percent;
+  throw InvalidInput("--tolerance", std::string(text), "a percentage of at least 0, such as 1%");
 }
 
 std::string comparison_table(const std::vector<ComparedRun>& runs, const ComparedRuns& compared) {

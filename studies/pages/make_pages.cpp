@@ -43,7 +43,7 @@ class Pages {
     file.replace_extension("html");
     fs::create_directories(file.parent_path());
     std::ofstream out(file, std::ios::binary);
-    out << flankwright::studies::page_html(text, to_root == "." ? "" : to_root + "/", link_target).html;
+    out << flankwright::studies::page_html(text, to_root == "." ? "" : to_root + "/", link_target);
     if (!out.flush()) throw std::runtime_error(file.string() + " cannot be written");
   }
 

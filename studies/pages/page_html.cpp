@@ -135,18 +135,19 @@ std::string heading_anchor(const std::string& heading) {
   return anchor;
 }
 
-PageHtml page_html(const std::string& markdown, const std::string& to_root, const std::function<std::string(const std::string&)>& link_target) {
+std::string page_html(const std::string& markdown, const std::string& to_root, const std::function<std::string(const std::string&)>& link_target) {
   const Node root = parsed(markdown);
-  PageHtml page{.title = add_anchors(root.get()), .html = {}};
+  const std::string title = add_anchors(root.get());
   for (const cmark_node_type type : {CMARK_NODE_LINK, CMARK_NODE_IMAGE}) {
     for (cmark_node* link : nodes_of(root.get(), type)) turn_link(link, link_target);
   }
-  page.html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
-              escaped(page.title) + "</title><style>" + style + "</style></head><body>\n<nav>";
+  std::string page =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
+      escaped(title) + "</title><style>" + style + "</style></head><body>\n<nav>";
   for (const NamedPage& named : documentation_pages) {
-    page.html += "<a href=\"" + to_root + std::string(named.file) + "\">" + std::string(named.name) + "</a>";
+    page += "<a href=\"" + to_root + std::string(named.file) + "\">" + std::string(named.name) + "</a>";
   }
-  page.html += "</nav>\n" + taken_text(cmark_render_html(root.get(), CMARK_OPT_DEFAULT, nullptr)) + "</body></html>\n";
+  page += "</nav>\n" + taken_text(cmark_render_html(root.get(), CMARK_OPT_DEFAULT, nullptr)) + "</body></html>\n";
   return page;
 }
 

@@ -1,7 +1,6 @@
 #include "studies/results/unit_json.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "studies/results/shaft_json.hpp"
 
@@ -15,15 +14,11 @@ Json vector_json(const auto& vector, double unit = 1.0) {
   return json;
 }
 
-Json number_json(double value) { return std::isnan(value) ? Json() : Json(value); }
-Json torque_json(double torque) { return number_json(torque / units::newton_metre); }
-
 Json further_shaft_json(const ShaftData& shaft) {
   Json json = shaft_json(shaft);
   json.erase("gear_position_mm");
   json.erase("gear_stiffens");
   json["name"] = shaft.name;
-  if (std::isnan(shaft.torque_position)) json["torque_position_mm"] = nullptr;
   return json;
 }
 
@@ -36,8 +31,8 @@ Json mesh_json(const UnitMesh& mesh) {
             {"hand_1", mesh.hand == Hand::Right ? "right" : "left"},
             {"centre_distance_mm", geometry.centre_distance},
             {"angle_deg", in_deg(mesh.angle)},
-            {"torque_1_Nm", torque_json(mesh.torque)},
-            {"stiffness_N_per_mm_um", number_json(mesh.stiffness * units::um)}};
+            {"torque_1_Nm", in_Nm(mesh.torque)},
+            {"stiffness_N_per_mm_um", mesh.stiffness * units::um}};
   for (std::size_t g = 0; g < 2; ++g) {
     const std::string number = g == 0 ? "_1" : "_2";
     json["shaft" + number] = mesh.gears[g].shaft;
@@ -53,14 +48,14 @@ Json mesh_state_json(const MeshState& mesh) {
   return {{"name", mesh.name},
           {"shaft_1", mesh.shafts[0]},
           {"shaft_2", mesh.shafts[1]},
-          {"torque_1_Nm", torque_json(mesh.torque[0])},
-          {"torque_2_Nm", torque_json(mesh.torque[1])},
+          {"torque_1_Nm", in_Nm(mesh.torque[0])},
+          {"torque_2_Nm", in_Nm(mesh.torque[1])},
           {"normal_force_N", mesh.normal_force},
           {"force_on_2_N", vector_json(mesh.force)},
           {"flank_1", mesh.torque[0] == 0.0 ? Json() : Json(name_of(mesh.first_flank))},
           {"driver", mesh.driver < 0 ? Json() : Json(mesh.shafts[static_cast<std::size_t>(mesh.driver)])},
-          {"misalignment_um", number_json(in_um(mesh.misalignment))},
-          {"face_load_factor", number_json(mesh.face_load_factor)}};
+          {"misalignment_um", in_um(mesh.misalignment)},
+          {"face_load_factor", mesh.face_load_factor}};
 }
 
 /// What was given and what the loaded contact has.
@@ -110,7 +105,7 @@ Json shaft_state_json(const ShaftState& shaft) {
   }
   return {{"name", shaft.name},
           {"axis_mm", vector_json(shaft.axis)},
-          {"coupling_torque_Nm", torque_json(shaft.coupling_torque)},
+          {"coupling_torque_Nm", in_Nm(shaft.coupling_torque)},
           {"held_against_turning_mm", shaft.turning_hold},
           {"largest_deflection_um", in_um(largest)},
           {"equilibrium_residual", shaft.residual},
@@ -126,7 +121,7 @@ Json shaft_state_json(const ShaftState& shaft) {
 }  // namespace
 
 Json unit_json(const UnitData& unit) {
-  return {{"reference_torque_Nm", torque_json(unit.reference_torque)},
+  return {{"reference_torque_Nm", in_Nm(unit.reference_torque)},
           {"shafts", list(unit.shafts, further_shaft_json)},
           {"meshes", list(unit.meshes, mesh_json)},
           {"loads", list(unit.loads,

@@ -24,7 +24,7 @@ struct StudyReading;
 struct StudyResults;
 class StudyRun;
 
-/// A task of a study: one folder of studies/tasks and one line in registered_tasks(). Its keys fill a table of its own, Study::table(); what it finds beside the
+/// A task of a study: one folder of studies/tasks and its name in studies/tasks/registry.cpp. Its keys fill a table of its own, Study::table(); what it finds beside the
 /// load cases it keeps by StudyResults::set_found(). What a member leaves empty, the task does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
 struct Task {
   const char* name{nullptr};     ///< as a study names it
@@ -57,7 +57,7 @@ struct Task {
   std::string (*study_template)(){nullptr};                  ///< printed by `flankwright new`; never empty
 };
 
-/// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp.
+/// All tasks there are, the default first: a task exists by its name in studies/tasks/registry.cpp.
 std::span<const Task* const> registered_tasks();
 
 /// Modifications that have a range in a study instead of a value: all that some task would vary, whichever task the study names.

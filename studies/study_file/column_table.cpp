@@ -6,19 +6,14 @@
 #include <fstream>
 #include <system_error>
 
+#include "studies/base/printable.hpp"
 #include "studies/study/study_errors.hpp"
 
 namespace flankwright::studies {
 
 namespace {
 
-constexpr std::string_view around_cells = " \t\r\"";
-
-std::string_view trim_cell(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(around_cells);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(around_cells) - first + 1);
-}
+std::string_view trim_cell(std::string_view text) { return trimmed(text, " \t\r\""); }
 
 void split_cells(std::string_view line, char separator, std::vector<TableCell>& cells) {
   cells.clear();

@@ -19,6 +19,12 @@ struct NamedDistribution {
   std::optional<PitchTolerance> pitch{};  ///< of a class for the pitch: values are numbers of draws of a gear, see drawn_pitch()
 };
 
+/// What a table of distributions may hold.
+inline constexpr const char* distributions_in_words =
+    "a table of keys below misalignment, load, modification or error, each with { normal = [mean, deviation] }, "
+    "{ truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] }, { grid = [low, high, levels] }, "
+    "{ values = [...] } or { iso_1328_class = 1 .. 11 }";
+
 /// Reads { normal = [mean, deviation] }, { truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] },
 /// { grid = [low, high, levels] }, { values = [...] } or { iso_1328_class = 6 }, numbers bare or with their units. The class is for
 /// helix_slope and profile_slope of an error, Distribution::within_tolerance() of that gear's tolerance (flank_tolerances.hpp), and for

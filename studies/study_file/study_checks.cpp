@@ -31,9 +31,8 @@ bool is_geometry(const std::string& path) {
 
 void check_tooth_list(StudyReading& reading, const std::string& path, const std::vector<double>& deviations, int teeth) {
   if (!reading.positions.contains(path) || deviations.empty() || static_cast<int>(deviations.size()) == teeth) return;
-  const Position at = reading.where(path);
-  reading.problems.push_back({at.file, at.line, at.column, path, "a list of " + std::to_string(deviations.size()),
-                              "allowed is one number, or a list of " + std::to_string(teeth) + ", one for each tooth"});
+  reading.refuse_value(path, "a list of " + std::to_string(deviations.size()),
+                       "allowed is one number, or a list of " + std::to_string(teeth) + ", one for each tooth");
 }
 
 void check_tooth_lists(StudyReading& reading, const std::string& prefix, const ManufacturingError& error, int teeth) {
@@ -225,10 +224,8 @@ void check_other_flanks(StudyReading& reading) {
     const std::optional<std::string> bound = bound_to_own_flanks(reading);
     if (!bound) return;
     const std::string path = "scenes." + std::to_string(i) + ".working_flank", own = name_of(study.pair.working_flank);
-    const Position at = reading.where(path);
-    reading.problems.push_back(
-        {at.file, at.line, at.column, path, std::string("\"") + name_of(opposite(study.pair.working_flank)) + "\"",
-         "allowed is pair.working_flank, \"" + own + "\", with " + *bound + ": analyse the other flank in a study of its own"});
+    reading.refuse_value(path, std::string("\"") + name_of(opposite(study.pair.working_flank)) + "\"",
+                         "allowed is pair.working_flank, \"" + own + "\", with " + *bound + ": analyse the other flank in a study of its own");
   }
 }
 
@@ -241,9 +238,7 @@ void check_scene_placements(StudyReading& reading) {
       // A value that the study does not give itself is the median of what it sweeps.
       const std::array places{"scenes." + std::to_string(i) + "." + problem.key, problem.key, "sweep.parameters." + problem.key};
       const auto given = std::ranges::find_if(places, [&](const std::string& place) { return reading.positions.contains(place); });
-      const std::string& path = given != places.end() ? *given : problem.key;
-      const Position at = reading.where(path);
-      reading.problems.push_back({at.file, at.line, at.column, path, in_words(problem.value), "allowed is " + problem.allowed});
+      reading.refuse_value(given != places.end() ? *given : problem.key, in_words(problem.value), "allowed is " + problem.allowed);
     }
   }
 }

@@ -125,7 +125,8 @@ std::vector<SchemaKey> working_condition_rows() {
 
 std::vector<SchemaKey> scene_rows() {
   return {
-      {.path = "scenes", .kind = Scenes, .fallback = "(one scene, nominal)",
+      {.path = "scenes", .kind = Free, .allowed = "[[scenes]] tables",
+       .fallback = "(one scene, nominal)",
        .meaning = "working conditions; each overrides `misalignment.*`, `load.torque`, `load.speed` or either gear's `error.*`"},
       {.path = "scenes[].name", .kind = Text, .fallback = "(scene 1, scene 2 ...)",
        .meaning = "names the scene in results",
@@ -137,7 +138,8 @@ std::vector<SchemaKey> scene_rows() {
        .meaning = "flank of the pinion that this scene loads; the one that is not pair.working_flank has the modifications that the same tool leaves there",
        .store = [](Scene& s, Member, const Value& v) { s.working_flank = static_cast<WorkingFlank>(v.integer); }},
 
-      {.path = "expect", .kind = Expectations, .fallback = "(none)",
+      {.path = "expect", .kind = Free, .allowed = "a table of keys of results.json, each with { value, within }, { min, max } or { is }",
+       .fallback = "(none)",
        .meaning = "\"loaded.summary.te_peak_to_peak_um\" = { max = 3 }: what results.json must say"},
   };
 }

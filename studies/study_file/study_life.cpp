@@ -92,8 +92,7 @@ void read_source(StudyReading& reading, const Match& match) {
 void check_bin(StudyReading& reading, SpectrumBin& bin, int index) {
   const std::string path = "load.spectrum." + std::to_string(index);
   const auto refuse = [&](const std::string& key, const std::string& value, const std::string& allowed) {
-    const Position at = reading.where(path + "." + key);
-    reading.problems.push_back({at.file, at.line, at.column, path + "." + key, value, allowed});
+    reading.refuse_value(path + "." + key, value, allowed);
   };
   const auto is_refused = [&](const std::string& of) {
     return std::ranges::any_of(reading.problems, [&](const StudyProblem& problem) { return problem.key == of; });
@@ -175,10 +174,9 @@ void check_curve(StudyReading& reading, const GivenSnCurve& curve, Member member
 void check_viscosity(StudyReading& reading, const std::string& path, double temperature) {
   const Lubricant& oil = reading.builder.study.life.lubricant;
   if (oil.has_viscosity_at(temperature)) return;
-  const Position at = reading.where(path);
-  reading.problems.push_back({at.file, at.line, at.column, path, in_words(temperature) + " degC",
-                              fmt::format("this oil would have {:.3g} mm2/s there: allowed is a temperature at which it has {:g} .. {:g} mm2/s",
-                                          oil.kinematic_viscosity(temperature).value, Lubricant::least_viscosity, Lubricant::largest_viscosity)});
+  reading.refuse_value(path, in_words(temperature) + " degC",
+                       fmt::format("this oil would have {:.3g} mm2/s there: allowed is a temperature at which it has {:g} .. {:g} mm2/s",
+                                   oil.kinematic_viscosity(temperature).value, Lubricant::least_viscosity, Lubricant::largest_viscosity));
 }
 
 /// Teeth are no colder than the oil, and they scuff at a temperature above it.
@@ -272,9 +270,7 @@ void check_life(StudyReading& reading) {
     for (const char* key : {"load.torque", "load.speed"}) {
       const std::string path = "scenes." + std::to_string(i) + "." + key;
       if (!reading.positions.contains(path)) continue;
-      const Position at = reading.where(path);
-      reading.problems.push_back(
-          {at.file, at.line, at.column, path, "beside load.spectrum", "allowed is this or load.spectrum, which holds in every scene"});
+      reading.refuse_value(path, "beside load.spectrum", "allowed is this or load.spectrum, which holds in every scene");
     }
   }
 }

@@ -121,6 +121,11 @@ void StudyReading::refuse_key(const std::string& path, const std::string& allowe
   refuse(where(path), path, match == nullptr ? node_at(document.root(), path) : match->node, allowed);
 }
 
+void StudyReading::refuse_value(const std::string& path, const std::string& value, const std::string& allowed) {
+  const Position at = where(path);
+  problems.push_back({at.file, at.line, at.column, path, value, allowed});
+}
+
 const Match* StudyReading::find(const std::string& path) const {
   const auto found = matches.find(path);
   return found == matches.end() ? nullptr : &found->second;
@@ -215,17 +220,8 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
       return read_word_list(key, node);
     case ValueKind::TableList:  // its tables' keys have rows of their own
     case ValueKind::TableListOrFile:
-    case ValueKind::Scenes:
-    case ValueKind::Objective:
-    case ValueKind::Objectives:
-    case ValueKind::Variables:
-    case ValueKind::Ties:
-    case ValueKind::KeyPairs:
-    case ValueKind::Distributions:
-    case ValueKind::Parameters:
-    case ValueKind::Constraints:
-    case ValueKind::Expectations:
-      return {};  // read by study_tables
+    case ValueKind::Free:
+      return {};  // by readers of their own
   }
   return {};
 }

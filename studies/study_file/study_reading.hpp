@@ -34,6 +34,9 @@ struct StudyReading {
   /// The same at the key of a path, anywhere in the file.
   void refuse_key(const std::string& path, const std::string& allowed);
 
+  /// The same with a value that does not stand there as it is said.
+  void refuse_value(const std::string& path, const std::string& value, const std::string& allowed);
+
   /// Match of a path, or null.
   const Match* find(const std::string& path) const;
 

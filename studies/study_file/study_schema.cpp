@@ -19,12 +19,6 @@ std::string number_text(double value) {
   return buffer.data();
 }
 
-std::string quoted_list(const std::vector<std::string>& words) {
-  std::string list;
-  for (const std::string& word : words) list += (list.empty() ? "\"" : ", \"") + word + "\"";
-  return list;
-}
-
 /// Letters to insert, delete or replace to get from one word to the other (Levenshtein).
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -135,6 +129,12 @@ bool is_described_fallback(const SchemaKey& key) { return key.fallback.starts_wi
 
 bool is_required(const SchemaKey& key) { return key.fallback.starts_with("(required"); }
 
+std::string quoted_list(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "\"" : ", \"") + word + "\"";
+  return list;
+}
+
 std::string range_in_words(const Range& range, Quantity quantity) {
   const bool has_low = std::isfinite(range.low);
   const bool has_high = std::isfinite(range.high);
@@ -183,51 +183,10 @@ std::string allowed_values(const SchemaKey& key) {
       return "a list of tables of the keys below it, at least one";
     case ValueKind::TableListOrFile:
       return "a list of tables of the keys below it, at least one, { file = \"x.csv\" } or { signal = \"x.csv\" }";
-    case ValueKind::Scenes:
-      return "[[scenes]] tables";
-    case ValueKind::Objective:
-      return quoted_list(output_names()) + ", a table of them, or a list in the order of importance";
-    case ValueKind::Objectives:
-      return "a list of two or three outputs, or tables of them";
-    case ValueKind::Variables:
-      return "a table of keys below pinion.modification or wheel.modification, or twist_compensation of either, each with [low, high] or { range = "
-             "[low, high], step = ... }";
-    case ValueKind::Ties:
-      return "a table of keys that may be variables, each with { as = a variable } and factor, offset";
-    case ValueKind::KeyPairs:
-      return "a list of pairs of keys below pinion.modification or below wheel.modification, each of one gear";
-    case ValueKind::Distributions:
-      return "a table of keys below misalignment, load, modification or error, each with { normal = [mean, deviation] }, "
-             "{ truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] }, { grid = [low, high, levels] }, "
-             "{ values = [...] } or { iso_1328_class = 1 .. 11 }";
-    case ValueKind::Parameters:
-      return "a list of keys below pinion.modification, wheel.modification or misalignment, twist_compensation of either gear, and load.torque";
-    case ValueKind::Constraints:
-      return "a table of outputs, or sums of keys below pinion.modification and wheel.modification, each with { max = ... }, { min = ... } or both";
-    case ValueKind::Expectations:
-      return "a table of keys of results.json, each with { value, within }, { min, max } or { is }";
+    case ValueKind::Free:
+      return key.allowed;
   }
   return "";
 }
-
-namespace {
-
-/// What a limit or a value in that unit is.
-Quantity quantity_of_unit(std::string_view unit) {
-  if (unit == "um") return Quantity::Deviation;
-  if (unit == "MPa") return Quantity::Stress;
-  if (unit == "degC") return Quantity::Temperature;
-  return unit == "N/mm" ? Quantity::LineLoad : Quantity::Number;
-}
-
-}  // namespace
-
-std::optional<NamedOutput> find_output(const std::string& name) {
-  const std::optional<ObjectiveTerm> term = find_term(name);
-  if (!term) return std::nullopt;
-  return NamedOutput{*term, quantity_of_unit(term->unit())};
-}
-
-std::vector<std::string> output_names() { return term_names(); }
 
 }  // namespace flankwright::studies

@@ -38,16 +38,7 @@ enum class ValueKind {
   WordList,         ///< "auto", or a list of `words`
   TableList,        ///< array of tables, each with the keys of element_keys()
   TableListOrFile,  ///< the same, or a table that names a file
-  Scenes,           ///< array of tables, each with scene_keys()
-  Objective,        ///< an output, a table of outputs and weights, or a list of such
-  Objectives,       ///< a list of outputs or tables of them
-  Variables,        ///< table: modification key = [low, high] or { range = [low, high], step = ... }
-  Ties,             ///< table: modification key = { as = a variable, factor, offset }
-  KeyPairs,         ///< list of pairs of modification keys of one gear
-  Distributions,    ///< table: key = distribution
-  Parameters,       ///< list of keys that derivatives are taken by
-  Constraints,      ///< table: output, or a sum of modifications = { max = ... , min = ... }
-  Expectations      ///< table: key of results.json = { value, within, min, max }
+  Free              ///< with a reader of its own; the row says what is allowed
 };
 
 /// The converted value of a key. The kind of the key determines the members that are set.
@@ -85,6 +76,7 @@ struct SchemaKey {
   Quantity quantity{Quantity::Number};
   Range range{};
   std::vector<std::string> words{};  ///< allowed words, in the order of their enumerators
+  std::string allowed{};             ///< of a Free key: its values in words
   std::string fallback{};            ///< default as it would be written in the file; words in (...) say where it comes from
   std::string meaning{};             ///< one line, with the sign
   std::string hint{};                ///< said with a refusal: what to do instead
@@ -130,19 +122,10 @@ bool is_required(const SchemaKey& key);
 /// Allowed values of a key in words: "a number above 0 and at most 1000 mm".
 std::string allowed_values(const SchemaKey& key);
 
+/// Words as a file has them: "\"a\", \"b\"".
+std::string quoted_list(const std::vector<std::string>& words);
+
 /// The words after "a number", or "an integer", for a range: " 10 .. 35 deg".
 std::string range_in_words(const Range& range, Quantity quantity);
-
-/// A quantity of the results that can be minimised or bounded, under its name in a study file.
-struct NamedOutput {
-  ObjectiveTerm term;
-  Quantity quantity{Quantity::Number};  ///< of the value, in constraints
-};
-
-/// "te_harmonic_3" -> TeHarmonic of order 3; nullopt for a name that is none of output_names().
-std::optional<NamedOutput> find_output(const std::string& name);
-
-/// All names of outputs.
-std::vector<std::string> output_names();
 
 }  // namespace flankwright::studies

@@ -23,8 +23,7 @@ void complete(ShaftData& shaft, const Material& of_gear, bool joined) {
 }
 
 void refuse(StudyReading& reading, const std::string& key, const InvalidInput& problem) {
-  const Position at = reading.where(key);
-  reading.problems.push_back({at.file, at.line, at.column, key, problem.value(), "allowed is " + problem.allowed()});
+  reading.refuse_value(key, problem.value(), "allowed is " + problem.allowed());
 }
 
 void read_shaft(StudyReading& reading, Member member) {

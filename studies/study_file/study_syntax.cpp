@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cctype>
 
+#include "studies/base/printable.hpp"
+
 namespace flankwright::studies {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
 constexpr std::size_t longest_value = 40;  // characters; what is longer is no number with a unit
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = std::min(text.find_first_not_of(blanks), text.size());
-  return text.substr(first, text.find_last_not_of(blanks) + 1 - first);
-}
 
 /// Length of a number without exponent at the beginning of the text, its decimals behind `point`; 0 where there is none.
 std::size_t number_length(std::string_view text, char point) {

@@ -4,14 +4,11 @@
 #include "core/base/error.hpp"
 #include "optimize/design/problem/design_task.hpp"
 #include "studies/study/task.hpp"
-#include "studies/tasks/accuracy/accuracy_task.hpp"
-#include "studies/tasks/analyse/analyse_task.hpp"
-#include "studies/tasks/fit/fit_task.hpp"
-#include "studies/tasks/geometry/geometry_task.hpp"
-#include "studies/tasks/optimise/optimise_task.hpp"
-#include "studies/tasks/sweep/sweep_task.hpp"
 
 namespace flankwright::studies {
+
+// Each is defined in the folder of its name.
+extern const Task analyse_task, optimise_task, sweep_task, accuracy_task, fit_task, geometry_task;
 
 std::span<const Task* const> registered_tasks() {
   static constexpr std::array tasks{

@@ -84,12 +84,6 @@ void add_revolution(Study study, std::vector<MeshExcitation>& cases, const Progr
   if (progress) progress("wheel revolution", positions, positions, "");
 }
 
-std::vector<double> phases_of(const std::vector<MeshExcitation::Position>& positions) {
-  std::vector<double> phases;
-  for (const auto& position : positions) phases.push_back(position.phase);
-  return phases;
-}
-
 template <class Value>
 std::vector<double> values_of(const std::vector<MeshExcitation::Position>& positions, const Value& value) {
   std::vector<double> values;
@@ -136,7 +130,7 @@ struct CaseHarmonics {
   std::vector<ExcitationHarmonic> te, stiffness;
 };
 CaseHarmonics harmonics_of(const MeshExcitation& of) {
-  const std::vector<double> phases = phases_of(of.cycle);
+  const std::vector<double> phases = values_of(of.cycle, [](const auto& p) { return p.phase; });
   return {excitation_harmonics(phases, values_of(of.cycle, [](const auto& p) { return in_um(p.transmission_error); }), harmonic_orders),
           excitation_harmonics(phases, values_of(of.cycle, [](const auto& p) { return si_stiffness * p.tangent_stiffness; }), harmonic_orders)};
 }

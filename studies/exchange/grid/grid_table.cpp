@@ -8,6 +8,7 @@
 #include "core/base/units.hpp"
 #include "core/flank/flank.hpp"
 #include "core/flank/measured_grid.hpp"
+#include "studies/base/printable.hpp"
 #include "studies/exchange/rexs/rexs_model.hpp"
 
 namespace flankwright::studies {
@@ -35,9 +36,6 @@ std::string grid_table(const GearPair& pair, Member member, const Modification& 
   layout.validate();
   const Gear& gear = pair[member];
   const Flank flank = make_flank(pair, member, modification, {});
-  std::string name = title;
-  std::ranges::replace_if(
-      name, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   const auto at = [&](int i, int points, double low, double high) {
     return std::lerp(low, high, std::lerp(layout.margin, 1.0 - layout.margin, static_cast<double>(i) / (points - 1)));
   };
@@ -46,8 +44,8 @@ std::string grid_table(const GearPair& pair, Member member, const Modification& 
       "# Start of active profile at diameter {:.6f} mm, tip at {:.6f} mm, face width {:.6f} mm; z from mid face.\n"
       "# Design against the involute, normal to the flank, + = metal added; manufacturing errors are not in it.\n"
       "radius_mm,z_mm,deviation_um\n",
-      name, name_of(member), name_of(pair.data.working_flank), gear.data.teeth, layout.profile_points, layout.face_points,
-      2.0 * gear.active_root_radius, 2.0 * gear.tip_form_radius, gear.data.face_width);
+      without_control_characters(title), name_of(member), name_of(pair.data.working_flank), gear.data.teeth, layout.profile_points,
+      layout.face_points, 2.0 * gear.active_root_radius, 2.0 * gear.tip_form_radius, gear.data.face_width);
   for (int i = 0; i < layout.profile_points; ++i) {
     const double radius = at(i, layout.profile_points, gear.active_root_radius, gear.tip_form_radius);
     for (int j = 0; j < layout.face_points; ++j) {

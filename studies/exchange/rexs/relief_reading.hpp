@@ -10,9 +10,6 @@
 
 namespace flankwright::studies::rexs {
 
-/// Equal to the digits that a unit leaves [mm].
-bool same_length(double a, double b);
-
 /// Reads what reliefs have in common: their shape, their transition and where a relief of the profile starts.
 class ReliefReading {
  public:
@@ -39,9 +36,6 @@ class ReliefReading {
   std::optional<Relief> profile_relief(const Component& c, const std::string& name, bool at_tip, Along along);
 
  private:
-  std::optional<double> length(const Component& c, const std::string& id);
-  void leave_out(const Component& c, const std::string& why);
-  void note(const Component& c, const std::string& what);
   /// Radius at a roll length measured from the tip down, or from the start of active profile up.
   double radius_at(double roll, bool at_tip) const;
   double roll_at(double radius) const;

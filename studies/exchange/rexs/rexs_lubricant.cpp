@@ -65,7 +65,7 @@ std::optional<Taken> roughness_of(Reading& reading, const StageParts& parts) {
 void write_lubricant(Reading& reading, const StageParts& parts, const std::optional<Taken>& temperature, StudyText& text) {
   const Component* oil = lubricant_of(reading, parts);
   if (oil == nullptr) return;
-  const auto leave_out = [&](const std::string& why) { reading.warn(Reading::name_of(*oil) + ": not taken, " + why); };
+  const auto leave_out = [&](const std::string& why) { reading.leave_out(*oil, why); };
   if (const std::string kind = reading.word(oil, "kind"); !kind.empty() && kind != "oil") return leave_out("a study knows oils, and it is " + kind);
   const auto thin = reading.number(oil, "viscosity_at_100_degree_celsius", Dimension::Viscosity);
   const auto thick = reading.number(oil, "viscosity_at_40_degree_celsius", Dimension::Viscosity);

@@ -57,22 +57,17 @@ class ModificationReading {
     read_triangular_relief(c, c.type == "triangular_tip_relief");
   }
 
-  std::optional<double> length(const Component& c, std::string_view id) {
-    const auto taken = reading_.number(&c, id, Dimension::Length);
-    return taken ? std::optional(taken->value) : std::nullopt;
-  }
   void remark(const std::string& key, const Component& c) {
     std::string& text = result_.remarks[key];
     text += (text.empty() ? "" : " + ") + Reading::name_of(c);
   }
-  void leave_out(const Component& c, const std::string& why) { reading_.warn(Reading::name_of(c) + ": not taken, " + why); }
-  void note(const Component& c, const std::string& what) { reading_.warn(Reading::name_of(c) + ": " + what); }
 
   void read_relief(const Component& c, bool at_tip) {
     const auto taken = reliefs_.profile_relief(c, at_tip ? "tip_relief" : "root_relief", at_tip, Along::Radius);
     if (!taken) return;
     const auto& [amount, height, form] = *taken;
-    if (length(c, "position_of_profile_modification")) note(c, "its position along the face is not taken, the relief is the same along all of it");
+    if (reading_.length(c, "position_of_profile_modification"))
+      reading_.note(c, "its position along the face is not taken, the relief is the same along all of it");
     ProfileRelief& relief = at_tip ? result_.modification.tip_relief : result_.modification.root_relief;
     if (cannot_join(relief, *taken)) {
       const double end = at_tip ? frame_.tip_radius : frame_.active_root_radius, sense = at_tip ? 1.0 : -1.0;
@@ -88,11 +83,11 @@ class ModificationReading {
   /// ISO 21771 has it, which says at which end of the face it lies too.
   void read_triangular_relief(const Component& c, bool at_tip) {
     const std::string name = at_tip ? "triangular_tip_relief" : "triangular_root_relief";
-    if (base_helix_ == 0.0) return leave_out(c, "lines of contact of a spur gear cut off no corner");
+    if (base_helix_ == 0.0) return reading_.leave_out(c, "lines of contact of a spur gear cut off no corner");
     const auto taken = reliefs_.profile_relief(c, name, at_tip, Along::Roll);
     if (!taken) return;
     const ContactLineCorner corner(frame_, at_tip ? ContactLineCorner::At::Tip : ContactLineCorner::At::Root, taken->height);
-    if (length(c, "position_of_profile_modification")) note(c, "its position along the face is not taken");
+    if (reading_.length(c, "position_of_profile_modification")) reading_.note(c, "its position along the face is not taken");
     ProfileRelief& relief = at_tip ? result_.modification.triangular_tip_relief : result_.modification.triangular_root_relief;
     if (cannot_join(relief, *taken)) {
       return add_part(c, [corner, form = taken->form, amount = taken->amount](double r, double z) {
@@ -106,19 +101,19 @@ class ModificationReading {
 
   /// Whether a study's one relief cannot have this one in it as well.
   static bool cannot_join(const ProfileRelief& relief, const ReliefReading::Relief& other) {
-    return other.form.is_blended() || (relief.amount != 0.0 && (!same_length(relief.height, other.height) || relief.shape != other.form.shape));
+    return other.form.is_blended() || (relief.amount != 0.0 && (!agree(relief.height, other.height) || relief.shape != other.form.shape));
   }
 
   void read_profile_slope(const Component& c) {
-    const auto amount = length(c, "profile_slope");
-    if (!amount) return leave_out(c, "it has no amount");
-    const auto start = length(c, "profile_evaluation_start"), end = length(c, "profile_evaluation_end");
+    const auto amount = reading_.length(c, "profile_slope");
+    if (!amount) return reading_.leave_out(c, "it has no amount");
+    const auto start = reading_.length(c, "profile_evaluation_start"), end = reading_.length(c, "profile_evaluation_end");
     double share = 1.0;
-    if (start && end && !same_length(*start, *end)) {
+    if (start && end && !agree(*start, *end)) {
       const double range = 0.5 * std::abs(*end - *start), active = frame_.tip_radius - frame_.active_root_radius;
-      if (!same_length(range, active)) {
+      if (!agree(range, active)) {
         share = active / range;
-        note(c, "its slope is carried on over the whole active profile, where a study states it");
+        reading_.note(c, "its slope is carried on over the whole active profile, where a study states it");
       }
     }
     result_.modification.profile_slope += share * *amount;
@@ -127,22 +122,22 @@ class ModificationReading {
 
   void read_profile_crowning(const Component& c) {
     const std::string shape = reading_.word(&c, "shape_of_profile_crowning");
-    if (shape == "circular") note(c, "its circular shape is taken as parabolic");
-    const auto tip = length(c, "profile_crowning_at_tip"), root = length(c, "profile_crowning_at_root");
-    if (!tip && !root) return leave_out(c, "it has no amount");
+    if (shape == "circular") reading_.note(c, "its circular shape is taken as parabolic");
+    const auto tip = reading_.length(c, "profile_crowning_at_tip"), root = reading_.length(c, "profile_crowning_at_root");
+    if (!tip && !root) return reading_.leave_out(c, "it has no amount");
     const double pitch = frame_.pitch_radius;
     const auto carried = [&](double amount, std::string_view id, double border) {
-      const auto diameter = length(c, id);
-      if (!diameter || same_length(0.5 * *diameter, border)) return amount;
+      const auto diameter = reading_.length(c, id);
+      if (!diameter || agree(0.5 * *diameter, border)) return amount;
       const double share = (border - pitch) / (0.5 * *diameter - pitch);
       if (!std::isfinite(share)) return amount;
-      note(c, fmt::format("its amount at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*diameter),
-                          difference_text(2.0 * border)));
+      reading_.note(c, fmt::format("its amount at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*diameter),
+                                   difference_text(2.0 * border)));
       return amount * share * share;
     };
-    if (const auto apex = length(c, "profile_highest_point"); apex && !same_length(*apex, 2.0 * pitch)) {
-      note(c,
-           fmt::format("its highest point at {} mm is moved to the pitch circle, diameter {} mm", number_text(*apex), difference_text(2.0 * pitch)));
+    if (const auto apex = reading_.length(c, "profile_highest_point"); apex && !agree(*apex, 2.0 * pitch)) {
+      reading_.note(c, fmt::format("its highest point at {} mm is moved to the pitch circle, diameter {} mm", number_text(*apex),
+                                   difference_text(2.0 * pitch)));
     }
     if (tip) {
       result_.modification.addendum_crowning += carried(*tip, "diameter_where_profile_crowning_tip_is_specified", frame_.tip_radius);
@@ -155,14 +150,14 @@ class ModificationReading {
   }
 
   void read_helix_slope(const Component& c) {
-    const auto amount = length(c, "helix_slope");
-    if (!amount) return leave_out(c, "it has no amount");
+    const auto amount = reading_.length(c, "helix_slope");
+    if (!amount) return reading_.leave_out(c, "it has no amount");
     reading_.word(&c, "helix_evaluation_reference");
-    const auto start = length(c, "helix_evaluation_start"), end = length(c, "helix_evaluation_end");
+    const auto start = reading_.length(c, "helix_evaluation_start"), end = reading_.length(c, "helix_evaluation_end");
     double share = 1.0;
-    if (start && end && !same_length(*start, *end) && !same_length(std::abs(*end - *start), frame_.face_width)) {
+    if (start && end && !agree(*start, *end) && !agree(std::abs(*end - *start), frame_.face_width)) {
       share = frame_.face_width / std::abs(*end - *start);
-      note(c, "its slope is carried on over the whole face, where a study states it");
+      reading_.note(c, "its slope is carried on over the whole face, where a study states it");
     }
     const bool at_high_z = (slope_end_ == SlopeEnd::NonDatumFace) == parts_.datum_at_low_z;
     result_.modification.lead_slope += (at_high_z ? share : -share) * *amount;
@@ -172,16 +167,16 @@ class ModificationReading {
   }
 
   void read_helix_crowning(const Component& c) {
-    if (reading_.word(&c, "shape_of_helix_crowning") == "circular") note(c, "its circular shape is taken as parabolic");
-    const auto datum = length(c, "helix_crowning_amount_datum_face"), other = length(c, "helix_crowning_amount_non_datum_face");
-    if (!datum && !other) return leave_out(c, "it has no amount");
+    if (reading_.word(&c, "shape_of_helix_crowning") == "circular") reading_.note(c, "its circular shape is taken as parabolic");
+    const auto datum = reading_.length(c, "helix_crowning_amount_datum_face"), other = reading_.length(c, "helix_crowning_amount_non_datum_face");
+    if (!datum && !other) return reading_.leave_out(c, "it has no amount");
     const double one = datum.value_or(other.value_or(0.0)), two = other.value_or(one);
-    const double apex = length(c, "helix_highest_point").value_or(0.0), half = 0.5 * frame_.face_width;
-    const double at_one = length(c, "coordinate_where_helix_crowning_is_specified_datum_face").value_or(-half);
-    const double at_two = length(c, "coordinate_where_helix_crowning_is_specified_non_datum_face").value_or(half);
+    const double apex = reading_.length(c, "helix_highest_point").value_or(0.0), half = 0.5 * frame_.face_width;
+    const double at_one = reading_.length(c, "coordinate_where_helix_crowning_is_specified_datum_face").value_or(-half);
+    const double at_two = reading_.length(c, "coordinate_where_helix_crowning_is_specified_non_datum_face").value_or(half);
     // One parabola K (z - apex)^2 on both sides: crowning K b^2/4 and, off centre, a slope; a constant only turns the gear.
     const double left = one / ((at_one - apex) * (at_one - apex)), right = two / ((at_two - apex) * (at_two - apex));
-    if (!std::isfinite(left) || !std::isfinite(right)) return leave_out(c, "its amount is specified at its highest point");
+    if (!std::isfinite(left) || !std::isfinite(right)) return reading_.leave_out(c, "its amount is specified at its highest point");
     if (std::abs(left - right) > 1e-6 * (std::abs(left) + std::abs(right))) {
       const double to_datum = parts_.datum_at_low_z ? 1.0 : -1.0;
       const auto removed = [=](double, double z) {
@@ -191,26 +186,27 @@ class ModificationReading {
       return add_part(c, removed, {.along_profile = false});
     }
     const double curvature = 0.5 * (left + right);
-    if (!same_length(std::abs(at_one), half) || !same_length(std::abs(at_two), half))
-      note(c, "its amounts are carried on to the ends of the face, where a study states them");
+    if (!agree(std::abs(at_one), half) || !agree(std::abs(at_two), half))
+      reading_.note(c, "its amounts are carried on to the ends of the face, where a study states them");
     result_.modification.lead_crowning +=
-        same_length(one, two) && apex == 0.0 && same_length(-at_one, half) && same_length(at_two, half) ? one : curvature * half * half;
+        agree(one, two) && apex == 0.0 && agree(-at_one, half) && agree(at_two, half) ? one : curvature * half * half;
     remark("lead_crowning", c);
     if (apex == 0.0) return;
     const double slope = -2.0 * curvature * apex * frame_.face_width;
     result_.modification.lead_slope += parts_.datum_at_low_z ? slope : -slope;
     remark("lead_slope", c);
-    note(c, fmt::format("its highest point at {} mm becomes a lead slope", number_text(apex)));
+    reading_.note(c, fmt::format("its highest point at {} mm becomes a lead slope", number_text(apex)));
   }
 
   void read_twist(const Component& c) {
-    const auto amount = length(c, "profile_twist");
-    if (!amount) return leave_out(c, "it has no amount");
-    const auto datum = length(c, "position_of_profile_twist_datum_face"), other = length(c, "position_of_profile_twist_non_datum_face");
+    const auto amount = reading_.length(c, "profile_twist");
+    if (!amount) return reading_.leave_out(c, "it has no amount");
+    const auto datum = reading_.length(c, "position_of_profile_twist_datum_face"),
+               other = reading_.length(c, "position_of_profile_twist_non_datum_face");
     double share = 1.0;
-    if (datum && other && !same_length(*datum, *other) && !same_length(std::abs(*other - *datum), frame_.face_width)) {
+    if (datum && other && !agree(*datum, *other) && !agree(std::abs(*other - *datum), frame_.face_width)) {
       share = frame_.face_width / std::abs(*other - *datum);
-      note(c, "its twist is carried on over the whole face, where a study states it");
+      reading_.note(c, "its twist is carried on over the whole face, where a study states it");
     }
     result_.modification.twist += (parts_.datum_at_low_z ? share : -share) * *amount;
     remark("twist", c);
@@ -221,28 +217,26 @@ class ModificationReading {
     double amount{0.0}, length{0.0};
     ReliefForm form{};
     const Component* component{nullptr};
-    bool operator==(const EndOfFace& other) const {
-      return same_length(amount, other.amount) && same_length(length, other.length) && form == other.form;
-    }
+    bool operator==(const EndOfFace& other) const { return agree(amount, other.amount) && agree(length, other.length) && form == other.form; }
   };
 
   void read_end_relief(const Component& c, const std::string& side, EndOfFace& end) {
-    const auto depth = length(c, "end_relief_depth_" + side), extent = length(c, "end_relief_length_" + side);
-    const auto reference = length(c, "end_relief_evaluation_reference_" + side);
-    if (!depth || !extent || !(*extent > 0.0)) return leave_out(c, "it has no depth or no length");
+    const auto depth = reading_.length(c, "end_relief_depth_" + side), extent = reading_.length(c, "end_relief_length_" + side);
+    const auto reference = reading_.length(c, "end_relief_evaluation_reference_" + side);
+    if (!depth || !extent || !(*extent > 0.0)) return reading_.leave_out(c, "it has no depth or no length");
     const auto shape = reliefs_.shape_of(c);
     if (!shape) return;
     const auto share_of = [&](const std::string& place) -> std::optional<double> {
-      const auto from_end = length(c, "end_relief_" + side + "_length_of_tangential_transition_" + place);
+      const auto from_end = reading_.length(c, "end_relief_" + side + "_length_of_tangential_transition_" + place);
       return from_end ? std::optional(1.0 - *from_end / *extent) : std::nullopt;
     };
     const ReliefForm form = reliefs_.form_of(c, *shape, share_of("start"), share_of("end"));
     double amount = *depth;
-    if (reference && !same_length(std::abs(*reference), 0.5 * frame_.face_width)) {
+    if (reference && !agree(std::abs(*reference), 0.5 * frame_.face_width)) {
       const double within = *extent - (0.5 * frame_.face_width - std::abs(*reference));
-      if (!(within > 0.0)) return leave_out(c, "it is evaluated before it starts");
+      if (!(within > 0.0)) return reading_.leave_out(c, "it is evaluated before it starts");
       amount /= form.at(within / *extent);
-      note(c, "its depth is carried on to the end of the face, where a study states it");
+      reading_.note(c, "its depth is carried on to the end of the face, where a study states it");
     }
     const EndOfFace read{amount, *extent, form, &c};
     if (end.component != nullptr) return add_end_relief(read, &end == &datum_end_);
@@ -272,9 +266,9 @@ class ModificationReading {
     const auto z = reading_.numbers(&c, "coordinates_of_topographical_modification", Dimension::Length);
     const auto diameters = reading_.numbers(&c, "diameters_of_topographical_modification", Dimension::Length);
     const auto amounts = reading_.numbers(&c, "topographical_modification_amounts", Dimension::Length);
-    if (!z || !diameters || !amounts) return leave_out(c, "it lacks coordinates, diameters or amounts");
+    if (!z || !diameters || !amounts) return reading_.leave_out(c, "it lacks coordinates, diameters or amounts");
     if (z->size() != amounts->size() || diameters->size() != amounts->size()) {
-      return leave_out(c, "its coordinates, diameters and amounts are not one for each point");
+      return reading_.leave_out(c, "its coordinates, diameters and amounts are not one for each point");
     }
     std::vector<TopographyPoint> points;
     for (std::size_t i = 0; i < amounts->size(); ++i) {
@@ -285,7 +279,7 @@ class ModificationReading {
       const std::shared_ptr<const DeviationField> field = make_grid_field(parse_grid(grid, "points"), frame_.base_radius, base_helix_).field;
       add_part(c, [field, this](double r, double axial) { return field->at(gear_.roll_length_at(r), axial).value; });
     } catch (const InvalidInput& problem) {
-      return leave_out(c, problem.what());
+      return reading_.leave_out(c, problem.what());
     }
     points_ = std::move(grid);
   }

@@ -63,6 +63,11 @@ std::optional<Taken> Reading::number(const Component* component, std::string_vie
   return Taken{value_of(*component, *found, found->text, unit_of(*component, *found, dimension)) + offset, name_of(*component) + " " + found->id};
 }
 
+std::optional<double> Reading::length(const Component& component, std::string_view attribute) {
+  const auto taken = number(&component, attribute, Dimension::Length);
+  return taken ? std::optional(taken->value) : std::nullopt;
+}
+
 std::optional<Taken> Reading::first_of(const Component* component, std::initializer_list<std::string_view> attributes, Dimension dimension) {
   for (const std::string_view attribute : attributes) {
     if (auto taken = number(component, attribute, dimension)) return taken;

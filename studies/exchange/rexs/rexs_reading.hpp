@@ -34,6 +34,8 @@ class Reading {
   /// The number of an attribute; nullopt where it is absent or empty. Where it has no unit at all, the one of the standard is meant.
   /// @throws StudyErrors, one problem with component, id and attribute, where it is no finite number or has a unit of another dimension
   std::optional<Taken> number(const Component* component, std::string_view attribute, Dimension dimension);
+  /// The number of an attribute that is a length [mm]; otherwise as number().
+  std::optional<double> length(const Component& component, std::string_view attribute);
   /// The first of several names that is there: the format renamed things.
   std::optional<Taken> first_of(const Component* component, std::initializer_list<std::string_view> attributes, Dimension dimension);
   /// A word or flag, "true" or "linear"; empty where absent.
@@ -48,6 +50,9 @@ class Reading {
 
   /// A difference between study and file; each is repeated on stderr.
   void warn(std::string text);
+  /// What is said of a component: that it is left out, or what is not taken of it.
+  void leave_out(const Component& component, const std::string& why) { note(component, "not taken, " + why); }
+  void note(const Component& component, const std::string& what) { warn(name_of(component) + ": " + what); }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Attributes of a component that nobody asked for.

@@ -224,7 +224,7 @@ std::optional<ImportedShaft> read_shaft(Reading& reading, const GearParts& parts
   try {
     return ShaftReading(reading, parts).read(face_width);
   } catch (const LeftOut& left_out) {
-    reading.warn(Reading::name_of(*parts.shaft) + ": not taken, " + left_out.why);
+    reading.leave_out(*parts.shaft, left_out.why);
     return std::nullopt;
   }
 }

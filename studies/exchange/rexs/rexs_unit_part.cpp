@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "studies/base/printable.hpp"
+
 namespace flankwright::studies::rexs {
 
 namespace {
@@ -40,9 +42,7 @@ bool is_joined(const Reading& reading, const StageParts& parts) {
 }  // namespace
 
 std::string full_name(const Component& component) {
-  std::string name = component.name;
-  std::ranges::replace_if(
-      name, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  const std::string name = without_control_characters(component.name);
   return Reading::name_of(component) + (name.empty() ? "" : " \"" + name + "\"");
 }
 

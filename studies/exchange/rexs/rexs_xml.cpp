@@ -4,19 +4,13 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "studies/base/printable.hpp"
 #include "studies/exchange/rexs/rexs_errors.hpp"
 #include "studies/exchange/rexs/rexs_model.hpp"
 
 namespace flankwright::studies::rexs {
 
 namespace {
-
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
-}
 
 /// A REXS file in XML with the positions of its elements.
 class XmlReading {
@@ -60,7 +54,7 @@ class XmlReading {
   int line_of(const pugi::xml_node& node) const { return line_at(node.offset_debug()); }
 
   int number(const pugi::xml_node& node, const char* attribute) const {
-    const std::string text = trimmed(node.attribute(attribute).value());
+    const std::string text(trimmed(node.attribute(attribute).value()));
     const std::optional<int> found = whole_number(text);
     if (!found) refuse(name_, line_of(node), fmt::format("{} {}", node.name(), attribute), text, "a whole number of at least 0");
     return *found;
@@ -83,10 +77,10 @@ class XmlReading {
   }
 
   Attribute attribute(const pugi::xml_node& node) const {
-    Attribute attribute{.id = node.attribute("id").value(), .unit = trimmed(node.attribute("unit").value()), .line = line_of(node)};
+    Attribute attribute{.id = node.attribute("id").value(), .unit = std::string(trimmed(node.attribute("unit").value())), .line = line_of(node)};
     if (const pugi::xml_node array = node.child("array")) {
       attribute.type = ValueType::NumberArray;
-      for (const pugi::xml_node cell : array.children("c")) attribute.array.push_back(trimmed(cell.child_value()));
+      for (const pugi::xml_node cell : array.children("c")) attribute.array.emplace_back(trimmed(cell.child_value()));
       if (const pugi::xml_attribute code = array.attribute("code")) {
         auto numbers = unpacked(array.child_value(), code.value());
         if (!numbers) refuse(name_, line_of(node), attribute.id, array.child_value(), "base64 of float64, float32 or int32");

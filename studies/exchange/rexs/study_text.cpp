@@ -5,30 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/base/printable.hpp"
+
 namespace flankwright::studies::rexs {
 
-namespace {
+// Comments and texts of a TOML file hold no control characters but tabs.
 
-constexpr std::size_t remark_column = 40;
-
-/// Comments of a TOML file hold no control characters but tabs.
-std::string printable(std::string text) {
-  std::ranges::replace_if(
-      text, [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
-  return text;
-}
-
-}  // namespace
-
-void StudyText::comment(const std::string& text) { text_ += "# " + printable(text) + "\n"; }
+void StudyText::comment(const std::string& text) { text_ += "# " + without_control_characters(text) + "\n"; }
 void StudyText::table(const std::string& name) { text_ += "\n[" + name + "]\n"; }
 void StudyText::list_table(const std::string& name) { text_ += "\n[[" + name + "]]\n"; }
 
 void StudyText::key(const std::string& name, const std::string& value, const std::string& remark) {
   std::string line = name + " = " + value;
   if (!remark.empty()) {
+    constexpr std::size_t remark_column = 40;
     line.resize(std::max(line.size() + 1, remark_column), ' ');
-    line += "# " + printable(remark);
+    line += "# " + without_control_characters(remark);
   }
   text_ += line + "\n";
 }
@@ -42,7 +34,7 @@ std::string difference_text(double value) {
 
 std::string quoted(const std::string& text) {
   std::string escaped = "\"";
-  for (const char c : printable(text)) {
+  for (const char c : without_control_characters(text)) {
     if (c == '"' || c == '\\') escaped += '\\';
     escaped += c;
   }

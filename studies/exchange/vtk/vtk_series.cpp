@@ -13,8 +13,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "studies/base/results_folder.hpp"
-#include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {
 
@@ -239,7 +237,7 @@ PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, 
   return data;
 }
 
-void add_case(const Json& json, std::size_t index, std::vector<ExportedFile>& files) {
+void add_case(const Json& json, std::size_t index, std::vector<NamedText>& files) {
   const Json& loaded = json.at("loaded").at(index);
   const MeshFrame frame(json, loaded);
   const std::string name = fmt::format("contact-{}", index + 1), design = loaded.at("design");
@@ -264,8 +262,8 @@ void add_case(const Json& json, std::size_t index, std::vector<ExportedFile>& fi
 
 }  // namespace
 
-std::vector<ExportedFile> vtk_series(const Json& results, const std::string& file) {
-  std::vector<ExportedFile> files;
+std::vector<NamedText> vtk_series(const Json& results, const std::string& file) {
+  std::vector<NamedText> files;
   try {
     if (results.at("loaded").empty()) throw InvalidInput(file, "no loaded contact", "results of a study with a torque");
     for (std::size_t i = 0; i < results.at("loaded").size(); ++i) add_case(results, i, files);

@@ -13,13 +13,6 @@ namespace flankwright::studies {
 
 namespace {
 
-/// The reference first.
-std::vector<const HierarchyStep*> all_steps(const FidelityHierarchy& hierarchy) {
-  std::vector<const HierarchyStep*> all{&hierarchy.reference};
-  for (const HierarchyStep& step : hierarchy.steps) all.push_back(&step);
-  return all;
-}
-
 /// Figures that are shown beside an outside curve.
 constexpr std::array outside_shown{Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1};
 

@@ -102,6 +102,18 @@ void add_whole_settings(const FidelityLevel& finest, const Study& study, std::ve
   }
 }
 
+/// The fidelity levels of a study, the finest first: one axis varied at a time from there, then whole settings.
+std::vector<FidelityLevel> hierarchy_levels(const LevelRunner& runner) {
+  const Study& study = runner.subject().study;
+  const FidelityLevel finest = finest_level(study.table<AccuracyTable>());
+  const MeshEffects effects = runner.effects(finest);
+  std::vector<FidelityLevel> fidelity_levels{finest};
+  add_model_levels(effects, fidelity_levels);
+  add_resolution_levels(fidelity_levels);
+  add_whole_settings(finest, study, fidelity_levels);
+  return fidelity_levels;
+}
+
 /// The results of an axis that end at the reference, coarse to fine.
 std::vector<const LevelResult*> sequence(const FidelityHierarchy& hierarchy, const char* axis) {
   std::vector<const LevelResult*> found;
@@ -136,11 +148,25 @@ void add_order(FidelityHierarchy& hierarchy, const char* axis, int (*level)(cons
   hierarchy.orders.push_back(orders);
 }
 
-/// All steps, the reference first.
-std::vector<HierarchyStep*> all_steps(FidelityHierarchy& hierarchy) {
-  std::vector<HierarchyStep*> all{&hierarchy.reference};
-  for (HierarchyStep& step : hierarchy.steps) all.push_back(&step);
-  return all;
+OutsideFigures outside_figures(const OutsideCurve& curve) {
+  const std::vector<double>& te = curve.transmission_error;
+  OutsideFigures figures{curve.name, static_cast<int>(te.size())};
+  const auto at = [&figures](Figure f) -> double& { return figures.value[static_cast<std::size_t>(f)]; };
+  const auto [low, high] = std::ranges::minmax(te);
+  at(Figure::TeMean) = std::accumulate(te.begin(), te.end(), 0.0) / figures.positions;
+  at(Figure::TePeakToPeak) = high - low;
+  std::ranges::copy(harmonic_amplitudes(te) | std::views::take(figure_harmonics), &at(Figure::TeHarmonic1));
+  return figures;
+}
+
+/// See HierarchyStep::from_outside.
+/// @param approach  of the flanks, mean over the cycle at the finest level [mm]
+PerFigure outside_differences(const PerFigure& figures, const PerFigure& outside, double approach) {
+  const double variation = std::max(outside[static_cast<std::size_t>(Figure::TePeakToPeak)], quiet_share * approach);
+  PerFigure differences{};
+  for (std::size_t i = 0; i < differences.size(); ++i)
+    differences[i] = (figures[i] - outside[i]) / (static_cast<Figure>(i) == Figure::TeMean ? approach : variation);
+  return differences;
 }
 
 /// Every level at the positions of the study's outside curve, if it has one.
@@ -186,36 +212,6 @@ std::vector<bool> pareto_best(const std::vector<double>& cost, const std::vector
     }
   }
   return best;
-}
-
-std::vector<FidelityLevel> hierarchy_levels(const LevelRunner& runner) {
-  const Study& study = runner.subject().study;
-  const FidelityLevel finest = finest_level(study.table<AccuracyTable>());
-  const MeshEffects effects = runner.effects(finest);
-  std::vector<FidelityLevel> fidelity_levels{finest};
-  add_model_levels(effects, fidelity_levels);
-  add_resolution_levels(fidelity_levels);
-  add_whole_settings(finest, study, fidelity_levels);
-  return fidelity_levels;
-}
-
-OutsideFigures outside_figures(const OutsideCurve& curve) {
-  const std::vector<double>& te = curve.transmission_error;
-  OutsideFigures figures{curve.name, static_cast<int>(te.size())};
-  const auto at = [&figures](Figure f) -> double& { return figures.value[static_cast<std::size_t>(f)]; };
-  const auto [low, high] = std::ranges::minmax(te);
-  at(Figure::TeMean) = std::accumulate(te.begin(), te.end(), 0.0) / figures.positions;
-  at(Figure::TePeakToPeak) = high - low;
-  std::ranges::copy(harmonic_amplitudes(te) | std::views::take(figure_harmonics), &at(Figure::TeHarmonic1));
-  return figures;
-}
-
-PerFigure outside_differences(const PerFigure& figures, const PerFigure& outside, double approach) {
-  const double variation = std::max(outside[static_cast<std::size_t>(Figure::TePeakToPeak)], quiet_share * approach);
-  PerFigure differences{};
-  for (std::size_t i = 0; i < differences.size(); ++i)
-    differences[i] = (figures[i] - outside[i]) / (static_cast<Figure>(i) == Figure::TeMean ? approach : variation);
-  return differences;
 }
 
 FidelityHierarchy run_hierarchy(LevelRunner& runner, const ProgressReport& progress) {

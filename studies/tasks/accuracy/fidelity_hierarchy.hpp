@@ -24,7 +24,9 @@ struct HierarchyStep {
   /// Pareto-best: no other level is both as fast and as accurate, in the worst quantity (`best`) or in one (`best_in`).
   bool best{false};
   std::array<bool, figure_count> best_in{};
-  PerFigure from_outside = nothing_known();  ///< differences from the study's outside curve, see outside_differences()
+  /// By how much it exceeds the figures of the study's outside curve at the same positions, as fractions: the mean in units of the approach at the finest
+  /// level, peak to peak and harmonics in units of the curve's peak to peak, at least quiet_share of the approach. NaN for figures that the curve does not have.
+  PerFigure from_outside = nothing_known();
 };
 
 /// Orders of convergence along one axis whose steps halve.
@@ -53,16 +55,13 @@ struct FidelityHierarchy {
   bool usable() const { return reference.result.usable(); }
 };
 
-/// The fidelity levels of a study, the finest first: one axis varied at a time from there, then whole settings.
-std::vector<FidelityLevel> hierarchy_levels(const LevelRunner& runner);
-
-OutsideFigures outside_figures(const OutsideCurve& curve);
-
-/// By how much figures of the transmission error exceed those of an outside curve at the same positions, as fractions: the mean in units of
-/// the approach, peak to peak and harmonics in units of the curve's peak to peak, at least quiet_share of the approach. NaN for figures that
-/// the curve does not have.
-/// @param approach  of the flanks, mean over the cycle at the finest level [mm]
-PerFigure outside_differences(const PerFigure& figures, const PerFigure& outside, double approach);
+/// All steps, the reference first.
+template <class Hierarchy>
+auto all_steps(Hierarchy& hierarchy) {
+  std::vector all{&hierarchy.reference};
+  for (auto& step : hierarchy.steps) all.push_back(&step);
+  return all;
+}
 
 /// Analyses the study's load cases at every level and compares each level with the finest.
 FidelityHierarchy run_hierarchy(LevelRunner& runner, const ProgressReport& progress);

@@ -27,7 +27,8 @@ std::optional<MeshParameter> mesh_parameter(const SchemaKey& key) {
 std::vector<SchemaKey> analyse_keys() {
   using enum ValueKind;
   return {
-      {.path = "analyse.gradients", .kind = Parameters, .fallback = "(none)",
+      {.path = "analyse.gradients", .kind = Free, .allowed = "a list of keys below pinion.modification, wheel.modification or misalignment, twist_compensation of either gear, and load.torque",
+       .fallback = "(none)",
        .meaning = "derivatives of every loaded output by these keys, each per its unit: `loaded[].gradients`; task \"analyse\""},
   };
 }

@@ -1,4 +1,4 @@
-#include "studies/tasks/geometry/geometry_task.hpp"
+#include "studies/study/task.hpp"
 
 #include <fmt/format.h>
 
@@ -72,11 +72,12 @@ task = "geometry"
 
 }  // namespace
 
-const Task geometry_task{.name = "geometry",
-                         .meaning = "The task `geometry` has no keys of its own.",
-                         .loads_nothing = true,
-                         .run = [](StudyRun&) {},  // the pair of the results is all it needs
-                         .summary = sizes_table,
-                         .study_template = [] { return std::string(geometry_head) + std::string(template_pair); }};
+/// Sizes of both gears and of their mesh; no contact is analysed.
+extern const Task geometry_task{.name = "geometry",
+                                .meaning = "The task `geometry` has no keys of its own.",
+                                .loads_nothing = true,
+                                .run = [](StudyRun&) {},  // the pair of the results is all it needs
+                                .summary = sizes_table,
+                                .study_template = [] { return std::string(geometry_head) + std::string(template_pair); }};
 
 }  // namespace flankwright::studies

@@ -82,7 +82,7 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
           {"scenes", list(optimum.scenes,
                           [&](const Optimum::Scene& s) -> Json {
                             const DesignScene& scene = task.scenes[static_cast<std::size_t>(s.scene)];
-                            return {{"name", scene.name}, {"torque_Nm", ListedScenes(task).torque_json(scene)}, {"weight", s.weight}};
+                            return {{"name", scene.name}, {"torque_Nm", ListedScenes(task).torque(scene)}, {"weight", s.weight}};
                           })},
           {"bounds", list(optimum.bounds,
                           [&](const Optimum::Bound& b) -> Json {
@@ -116,11 +116,8 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
 Json usual_signs_json(const UsualSigns& usual, const DesignTask& task) {
   Json json{{"words", usual_signs_in_words(usual, task)}, {"unusual", usual.unusual}, {"design", Json()}};
   if (!usual.design) return json;
-  Json variables = Json::object();
-  for (std::size_t i = 0; i < task.variables.size(); ++i) {
-    variables[task.variables[i].path] = usual.design->variables[i] * task.variables[i].outside_factor();
-  }
-  json["design"] = {{"variables", variables}, {"objective", usual.design->objective}, {"price_percent", 100.0 * usual.price}};
+  json["design"] = {
+      {"variables", variables_json(usual.design->variables, task)}, {"objective", usual.design->objective}, {"price_percent", 100.0 * usual.price}};
   return json;
 }
 
@@ -190,6 +187,12 @@ Json validation_json(const Validation& validation, const DesignTask& task, const
 }
 
 }  // namespace
+
+Json variables_json(const std::vector<double>& values, const DesignTask& task) {
+  Json variables = Json::object();
+  for (std::size_t i = 0; i < task.variables.size(); ++i) variables[task.variables[i].path] = values[i] * task.variables[i].outside_factor();
+  return variables;
+}
 
 Json tolerance_json(const SceneTolerance& tolerance) {
   Json json{{"name", tolerance.path}, {"distribution", tolerance.in_words}, {"added", tolerance.added}};

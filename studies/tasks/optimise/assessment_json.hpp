@@ -5,6 +5,9 @@
 
 namespace flankwright::studies {
 
+/// Values of the variables [mm; parabolic_te 1/rad] under their paths, in the units of their keys.
+Json variables_json(const std::vector<double>& values, const DesignTask& task);
+
 /// An entry of the tolerances that draws are made from: name, distribution, unit of its values, and whether they are added.
 Json tolerance_json(const SceneTolerance& tolerance);
 

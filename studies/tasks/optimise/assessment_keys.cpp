@@ -1,5 +1,6 @@
 #include "studies/tasks/optimise/assessment_keys.hpp"
 
+#include "studies/study_file/distribution_reading.hpp"
 #include "studies/study_file/key_rows.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
 
@@ -17,7 +18,8 @@ std::vector<SchemaKey> assessment_keys() {
       {.path = "optimise.comparison.variants", .range = from_zero(1000.0), .fallback = "0",
        .meaning = "analyses of a full-factorial search of the variables for each analysis of the optimiser; 0: none",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().assessment.variants = v.number; }},
-      {.path = "optimise.tolerances", .kind = Distributions, .fallback = "(none)",
+      {.path = "optimise.tolerances", .kind = Free, .allowed = distributions_in_words,
+       .fallback = "(none)",
        .meaning = "\"misalignment.mesh_misalignment\" = { normal = [0, 6] }: what scatters in scenes drawn for the optimiser or for validation"},
       {.path = "optimise.scenes_drawn.samples", .kind = Integer, .range = {.low = 0, .high = 10'000}, .fallback = "0",
        .meaning = "draws from the tolerances, each in every operating state, whose scenes the optimiser sees beside those listed",

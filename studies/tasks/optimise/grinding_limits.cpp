@@ -14,13 +14,6 @@ namespace {
 
 constexpr double per_mm = units::um;  // um per mm, in mm per mm
 
-/// What the search changes: variables and what is tied to them.
-std::vector<DesignVariable> changed(const OptimiseTable& optimise) {
-  std::vector<DesignVariable> all = optimise.variables;
-  for (const LinkingConstraint& link : optimise.links) all.push_back(link.linked);
-  return all;
-}
-
 ModificationConstraint amount_limit(const DesignVariable& v, double largest) {
   ModificationConstraint limit{.name = "largest amount of " + plain_name(v.path), .terms = {{v.member, v.parameter, 1.0}}, .maximum = largest};
   if (v.lower < 0.0) limit.minimum = -largest;
@@ -51,7 +44,8 @@ std::vector<SchemaKey> grinding_limit_keys() {
       {.path = "optimise.grinding.smallest_amount", .quantity = Quantity::Deviation, .range = above_zero(1000.0), .fallback = "(no limit)",
        .meaning = "of every varied amount, either way: one that the search leaves below it becomes 0 or at least this, whichever is better",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().grindable.smallest = v.number; }},
-      {.path = "optimise.grinding.not_together", .kind = ValueKind::KeyPairs, .fallback = "(none)",
+      {.path = "optimise.grinding.not_together", .kind = ValueKind::Free, .allowed = "a list of pairs of keys below pinion.modification or below wheel.modification, each of one gear",
+       .fallback = "(none)",
        .meaning = "[[\"pinion.modification.tip_relief\", \"pinion.modification.profile_crowning\"]]: not ground at once; the better of the two alternatives without one of them is chosen"},
       {.path = "optimise.grinding.steepest_relief", .range = above_zero(1e4), .fallback = "(no limit)",
        .meaning = "um per mm: amount of every varied relief over its height or length",
@@ -63,7 +57,7 @@ std::vector<SchemaKey> grinding_limit_keys() {
 
 void read_grinding_limits(StudyReading& reading) {
   OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
-  const std::vector<DesignVariable> varied = changed(optimise);
+  const std::vector<DesignVariable> varied = optimise.varied();
   if (optimise.largest_amount) {
     for (const DesignVariable& v : varied) {
       if (describe(v.parameter).kind != ParameterKind::Amount) continue;

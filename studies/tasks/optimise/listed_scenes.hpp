@@ -30,10 +30,8 @@ class ListedScenes {
   }
   /// Whether a scene has a torque by which it differs from another of its name.
   bool names_torque() const { return names_torque_; }
-  /// Of a scene [N·m]; NaN where a load spectrum has many.
+  /// Of a scene [N·m]; NaN where a load spectrum has many, which results.json writes as null.
   double torque(const DesignScene& scene) const { return spectra_ ? not_given : in_Nm(scene.torque); }
-  /// The same; null where it is NaN.
-  Json torque_json(const DesignScene& scene) const { return spectra_ ? Json() : Json(torque(scene)); }
   /// Of a load case, or of a whole load spectrum.
   double weight(const DesignScene& scene) const {
     if (!spectra_) return scene.weight;

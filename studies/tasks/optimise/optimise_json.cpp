@@ -5,17 +5,12 @@
 #include <cmath>
 
 #include "studies/results/used_json.hpp"
+#include "studies/tasks/optimise/assessment_json.hpp"
 #include "studies/tasks/optimise/listed_scenes.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-Json variables_json(const std::vector<double>& values, const DesignTask& task) {
-  Json variables = Json::object();
-  for (std::size_t i = 0; i < task.variables.size(); ++i) variables[task.variables[i].path] = values[i] * task.variables[i].outside_factor();
-  return variables;
-}
 
 /// A bounded output has one entry, whichever bounds it has.
 Json constraints_json(const DesignReport& report, const DesignTask& task) {
@@ -143,14 +138,7 @@ Json optimality_json(const Optimality& optimality, const DesignTask& task) {
   return {{"residual", optimality.residual}, {"complementarity", optimality.complementarity}, {"active", std::move(active)}};
 }
 
-Json scaled_design_json(const Eigen::VectorXd& x, const DesignTask& task) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < task.variables.size(); ++i) {
-    const DesignVariable& v = task.variables[i];
-    values.push_back(v.unscaled(x[static_cast<Eigen::Index>(i)]));
-  }
-  return variables_json(values, task);
-}
+Json scaled_design_json(const Eigen::VectorXd& x, const DesignTask& task) { return variables_json(unscaled(x, task), task); }
 
 /// Null where the search needed no finisher.
 Json finished_by_json(const std::string& solver) { return solver.empty() ? Json() : Json(solver); }
@@ -211,7 +199,7 @@ Json optimise_json(const StudyResults& results) {
   const ListedScenes listed(task);
   for (const std::size_t s : listed.indices()) {
     scenes.push_back({{"name", task.scenes[s].name},
-                      {"torque_Nm", listed.torque_json(task.scenes[s])},
+                      {"torque_Nm", listed.torque(task.scenes[s])},
                       {"weight", listed.weight(task.scenes[s])},
                       {"before", design.before.scene_measures[s]},
                       {"after", design.after.scene_measures[s]},

@@ -1,5 +1,6 @@
 #include "studies/tasks/optimise/optimise_keys.hpp"
 
+#include "optimize/design/outputs/design_output.hpp"
 #include "optimize/solvers/solver.hpp"
 #include "studies/study_file/key_rows.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
@@ -12,7 +13,8 @@ namespace flankwright::studies {
 std::vector<SchemaKey> optimise_keys() {
   using enum ValueKind;
   return {
-      {.path = "optimise.objective", .kind = Objective, .fallback = "\"peak_contact_stress\"",
+      {.path = "optimise.objective", .kind = Free, .allowed = quoted_list(term_names()) + ", a table of them, or a list in the order of importance",
+       .fallback = "\"peak_contact_stress\"",
        .meaning = "minimised; a table of names and weights minimises the sum of weight * value (um, MPa, N/mm); of a list each while those before it stay near their least"},
       {.path = "optimise.lexicographic_tolerance", .range = above_zero(10.0), .fallback = "0.01",
        .meaning = "of a list of objectives: how far one may rise above its least while the next is minimised, as a share of it",
@@ -34,14 +36,17 @@ std::vector<SchemaKey> optimise_keys() {
       {.path = "optimise.finisher", .kind = Word, .words = finisher_names(), .fallback = "\"nlopt:slsqp\"",
        .meaning = "what goes on from the best design where a solver with gradients and constraints stalls on a kink; none: the search ends there",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().solver.finisher = v.text; }},
-      {.path = "optimise.variables", .kind = Variables, .fallback = "(none)",
+      {.path = "optimise.variables", .kind = Free, .allowed = "a table of keys below pinion.modification or wheel.modification, or twist_compensation of either, each with [low, high] or { range = [low, high], step = ... }",
+       .fallback = "(none)",
        .meaning = "\"pinion.modification.lead_crowning\" = [0, 40]: what may change, in the unit of its key; { range = [0, 40], step = 1 }: and is ground in such steps"},
       {.path = "optimise.step", .kind = NumberOrNone, .quantity = Quantity::Deviation, .range = above_zero(100.0), .fallback = "\"none\"",
        .meaning = "what the grinder can set: the optimum is rounded to multiples of it, in variables that are amounts and have no step of their own; none: it is not rounded",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().step = v.number; }},
-      {.path = "optimise.ties", .kind = Ties, .fallback = "(none)",
+      {.path = "optimise.ties", .kind = Free, .allowed = "a table of keys that may be variables, each with { as = a variable } and factor, offset",
+       .fallback = "(none)",
        .meaning = "\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 1, offset = 0 }: follows a variable, factor * value + offset"},
-      {.path = "optimise.constraints", .kind = Constraints, .fallback = "(none)",
+      {.path = "optimise.constraints", .kind = Free, .allowed = "a table of outputs, or sums of keys below pinion.modification and wheel.modification, each with { max = ... }, { min = ... } or both",
+       .fallback = "(none)",
        .meaning = "\"te_peak_to_peak\" = { max = 1.5 }: transmission error in um, stress in MPa, line load in N/mm, in every scene; \"pinion.modification.lead_crowning + wheel.modification.lead_crowning\" = { max = 30 }"},
       {.path = "optimise.edge_margin", .range = {.low = 0.0, .high = 0.5, .low_open = true}, .fallback = "0.05",
        .meaning = "of edge_load: share of the face width at either end and of the active height at either tip",
@@ -49,7 +54,8 @@ std::vector<SchemaKey> optimise_keys() {
       {.path = "optimise.starts", .kind = Integer, .range = {.low = 1, .high = 1000}, .fallback = "1",
        .meaning = "searches, side by side: from the file's values and from a space-filling set; max_evaluations is shared among them; of a front for the best of each objective",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<OptimiseTable>().starts = static_cast<int>(v.integer); }},
-      {.path = "optimise.pareto.objectives", .kind = Objectives, .fallback = "(none)",
+      {.path = "optimise.pareto.objectives", .kind = Free, .allowed = "a list of two or three outputs, or tables of them",
+       .fallback = "(none)",
        .meaning = "a front of compromises between these as well, with a budget of its own of the same size"},
       {.path = "optimise.pareto.points", .kind = Integer, .range = {.low = 3, .high = 200}, .fallback = "9",
        .meaning = "of the front; of three objectives the largest of 3, 6, 10, 15 ... within it",

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "optimize/design/outputs/design_output.hpp"
 #include "studies/study_file/study_items.hpp"
 #include "studies/tasks/optimise/optimise_table.hpp"
 
@@ -15,7 +16,7 @@ namespace flankwright::studies {
 namespace {
 
 std::string unknown_output(const std::string& name) {
-  const std::string near = nearest_word(name, output_names());
+  const std::string near = nearest_word(name, term_names());
   return "unknown output" + (near.empty() ? "" : ", did you mean " + near + "?");
 }
 
@@ -24,7 +25,7 @@ std::string unknown_output_of(const std::string& name) {
   const std::string said = unknown_output(name);
   if (said.ends_with('?')) return said;
   std::string all;
-  for (const std::string& output : output_names()) all += (all.empty() ? "; allowed is " : ", ") + output;
+  for (const std::string& output : term_names()) all += (all.empty() ? "; allowed is " : ", ") + output;
   return said + all;
 }
 
@@ -33,7 +34,7 @@ constexpr double largest_weight = 1e9;
 /// One output, or a table of outputs and weights; what cannot be read becomes a problem.
 std::vector<ObjectiveTerm> read_terms(StudyReading& reading, const SchemaKey& key, const toml::node& node, const Position& at) {
   if (const auto* name = node.as_string()) {
-    if (const auto output = find_output(name->get())) return {output->term};
+    if (const auto output = find_term(name->get())) return {*output};
     reading.refuse(at, key.path, &node, unknown_output(name->get()) + "; allowed is " + allowed_values(key));
     return {};
   }
@@ -47,13 +48,13 @@ std::vector<ObjectiveTerm> read_terms(StudyReading& reading, const SchemaKey& ke
   for (const auto& [name, value] : *table) {
     const std::string path = key.path + "." + std::string(name.str());
     const Position position = reading.document.position(name);
-    auto output = find_output(std::string(name.str()));
+    auto output = find_term(name.str());
     if (!output) {
       reading.refuse(position, path, &value, unknown_output_of(std::string(name.str())));
       continue;
     }
-    output->term.weight = number_of(reading, position, path, value, weight);
-    terms.push_back(output->term);
+    output->weight = number_of(reading, position, path, value, weight);
+    terms.push_back(*output);
   }
   return terms;
 }
@@ -267,22 +268,30 @@ void read_modification_constraint(StudyReading& reading, const Item& item, const
   reading.builder.study.table<OptimiseTable>().modification_constraints.push_back(constraint);
 }
 
+/// What a limit or a value in that unit is.
+Quantity quantity_of_unit(std::string_view unit) {
+  if (unit == "um") return Quantity::Deviation;
+  if (unit == "MPa") return Quantity::Stress;
+  if (unit == "degC") return Quantity::Temperature;
+  return unit == "N/mm" ? Quantity::LineLoad : Quantity::Number;
+}
+
 void read_constraint(StudyReading& reading, const Item& item) {
   const std::string shown = "optimise.constraints." + item.name;
   const std::string allowed = "allowed is { max = ... }, { min = ... } or both, and nothing else";
   const bool is_sum = item.name.find("modification.") != std::string::npos;
-  const auto output = find_output(item.name);
+  const auto output = find_term(item.name);
   if (!output && !is_sum) return reading.refuse(item.position, shown, item.node, unknown_output_of(item.name));
   const toml::table* table = item.node->as_table();
   if (table == nullptr || table->empty()) return reading.refuse(item.position, shown, item.node, allowed);
   if (!has_only(reading, item, shown, {"max", "min"}, allowed)) return;
   if (is_sum) return read_modification_constraint(reading, item, shown);
-  const SchemaKey limit{.quantity = output->quantity, .range = {.low = 0.0, .low_open = true}};
+  const SchemaKey limit{.quantity = quantity_of_unit(output->unit()), .range = {.low = 0.0, .low_open = true}};
   std::vector<OutputConstraint>& constraints = reading.builder.study.table<OptimiseTable>().constraints;
   const auto maximum = read_bound(reading, item, shown, "max", limit), minimum = read_bound(reading, item, shown, "min", limit);
   if (maximum && minimum && *minimum > *maximum) return reading.refuse(item.position, shown, item.node, "allowed is min at most max");
-  if (maximum) constraints.push_back({.output = output->term, .maximum = *maximum});
-  if (minimum) constraints.push_back({.output = output->term, .minimum = *minimum});
+  if (maximum) constraints.push_back({.output = *output, .maximum = *maximum});
+  if (minimum) constraints.push_back({.output = *output, .minimum = *minimum});
 }
 
 /// What edge_load counts as the edge, wherever it is asked for.

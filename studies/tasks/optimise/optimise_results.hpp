@@ -31,6 +31,6 @@ struct OptimiseResults {
 };
 
 /// @param results  of an optimisation that has run
-const OptimiseResults& optimised(const StudyResults& results);
+inline const OptimiseResults& optimised(const StudyResults& results) { return *results.found<OptimiseResults>(); }
 
 }  // namespace flankwright::studies

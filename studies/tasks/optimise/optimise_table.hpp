@@ -31,6 +31,13 @@ struct OptimiseTable {
   GrindableAmounts grindable;
   std::optional<double> largest_amount;   ///< that can be ground [mm]
   std::optional<double> steepest_relief;  ///< that can be ground [um/mm]
+
+  /// What the search changes: variables and what is tied to them.
+  std::vector<DesignVariable> varied() const {
+    std::vector<DesignVariable> all = variables;
+    for (const LinkingConstraint& link : links) all.push_back(link.linked);
+    return all;
+  }
 };
 
 }  // namespace flankwright::studies

@@ -1,10 +1,11 @@
-#include "studies/tasks/optimise/optimise_task.hpp"
+#include "studies/study/task.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "studies/analysis/study_effects.hpp"
+#include "studies/study_file/template_text.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/optimise_checks.hpp"
 #include "studies/tasks/optimise/optimise_json.hpp"
@@ -14,7 +15,6 @@
 #include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/tasks/optimise/optimise_run.hpp"
 #include "studies/tasks/optimise/optimise_tables.hpp"
-#include "studies/tasks/optimise/optimise_template.hpp"
 #include "studies/tasks/optimise/assessment_json.hpp"
 #include "studies/tasks/optimise/assessment_keys.hpp"
 #include "studies/tasks/optimise/assessment_reading.hpp"
@@ -47,12 +47,7 @@ void read_optimise_tables(StudyReading& reading) {
   read_scatter(reading);
 }
 
-std::vector<DesignVariable> varied_modifications(const Study& study) {
-  const OptimiseTable& asked = study.table<OptimiseTable>();
-  std::vector<DesignVariable> all = asked.variables;
-  for (const LinkingConstraint& link : asked.links) all.push_back(link.linked);
-  return all;
-}
+std::vector<DesignVariable> varied_modifications(const Study& study) { return study.table<OptimiseTable>().varied(); }
 
 /// Variables, and what is tied to them, count as modifications from the start, even where their first value is 0; of a compensation the least counts, which leaves
 /// most twist. What scatters counts as well, with the design as it is given and with the variables.
@@ -92,23 +87,70 @@ void add_optimise_json(const StudyResults& results, Json& json) {
 
 void write_store(const StudyResults& results, const std::filesystem::path& folder) { write_results_store(folder / "results.sqlite", results); }
 
+constexpr std::string_view optimise_head = R"(# Flank modifications that hold over a set of working conditions.
+title = "My pair, as it should be"
+task = "optimise"
+)";
+
+constexpr std::string_view optimise_tail = R"(
+[load]
+torque = 300                         # N·m on the pinion
+
+[cycle]
+# positions = 64                     # mesh positions over one base pitch; left out: as many as the figures need
+
+[fidelity]
+compliance = "fitted"                # finite elements of both gears, solved once; "thin_slice": none, at once
+# quadrature = { rule = "graded", intervals = 24 }                   # along a full contact line; left out: as fine as the figures need
+
+# Each scene overrides what it names of [misalignment], [load], [pinion.error] and [wheel.error].
+[[scenes]]
+name = "aligned"
+
+[[scenes]]
+name = "housing bends"
+misalignment.mesh_misalignment = 12  # um over the face width; + opens at +z
+weight = 2                           # in mean and mean+2sigma
+
+[[scenes]]
+name = "part load, other way"
+misalignment.mesh_misalignment = -8
+load.torque = 120
+
+[optimise]
+objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress, edge_stress, tip_edge_share, edge_load
+over = "worst"                       # nominal | worst | mean | mean+2sigma of the scenes
+# solver = "ipopt"                   # left out: "nlopt:slsqp"; also nlopt:mma, nlopt:cobyla ...
+# max_evaluations = 500
+# max_seconds = "10 min"
+
+[optimise.variables]                 # the search starts from the values above
+"pinion.modification.lead_crowning" = [0, 30]                        # um
+"pinion.modification.lead_slope" = [-20, 20]
+"pinion.modification.tip_relief.amount" = [0, 40]
+
+[optimise.constraints]
+"te_peak_to_peak" = { max = 10 }     # um
+)";
+
 }  // namespace
 
-const Task optimise_task{.name = "optimise",
-                         .meaning = "The task `optimise`: [optimisation](README.md#optimisation).",
-                         .keys = all_optimise_keys,
-                         .read = read_optimise_tables,
-                         .check = check_optimise,
-                         .conditions = optimise_conditions,
-                         .asks_for_root_stress = minimises_root_stress,
-                         .varied = varied_modifications,
-                         .add_notes = note_few_draws,
-                         .run = run_optimise,
-                         .write_files = write_store,
-                         .add_json = add_optimise_json,
-                         .tables = optimise_tables,
-                         .summary = optimise_summary,
-                         .report_sections = optimise_sections,
-                         .study_template = optimise_template};
+extern const Task optimise_task{
+    .name = "optimise",
+    .meaning = "The task `optimise`: [optimisation](README.md#optimisation).",
+    .keys = all_optimise_keys,
+    .read = read_optimise_tables,
+    .check = check_optimise,
+    .conditions = optimise_conditions,
+    .asks_for_root_stress = minimises_root_stress,
+    .varied = varied_modifications,
+    .add_notes = note_few_draws,
+    .run = run_optimise,
+    .write_files = write_store,
+    .add_json = add_optimise_json,
+    .tables = optimise_tables,
+    .summary = optimise_summary,
+    .report_sections = optimise_sections,
+    .study_template = [] { return std::string(optimise_head) + std::string(template_pair) + std::string(optimise_tail); }};
 
 }  // namespace flankwright::studies

@@ -61,8 +61,8 @@ class ScatterRun {
     report("searching over " + std::to_string(asked_.draws) + " draws");
     const DesignTask over = over_draws(task_, draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_), asked_.statistic);
     for (const std::vector<int>& load_cases : draws_of(over.scenes, over.combined_objective().over_spectrum())) {
-      ScatterDraw& listed = result.draws.emplace_back();
-      for (const int s : load_cases) listed.load_cases.push_back(over.scenes[static_cast<std::size_t>(s)]);
+      std::vector<DesignScene>& listed = result.draws.emplace_back();
+      for (const int s : load_cases) listed.push_back(over.scenes[static_cast<std::size_t>(s)]);
     }
     result.states = operating_states(study_, tolerances);
     result.design = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.table<OptimiseTable>().solver);
@@ -110,7 +110,7 @@ class ScatterRun {
   /// So a class has the same design whatever the others of the list are, and the study's own class has that of the study.
   ScatterDesign search_class(const DesignTask& over, const DesignResult& found, const ScatterResult& result) const {
     ScatterDesign first = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, study_.table<OptimiseTable>().solver);
-    ScatterDesign second = search_over_draws(over, unscaled(result.design, task_), study_.table<OptimiseTable>().solver);
+    ScatterDesign second = search_over_draws(over, unscaled(result.design.x, task_), study_.table<OptimiseTable>().solver);
     return is_better(second, first) ? second : first;
   }
 
@@ -156,9 +156,9 @@ bool is_objective(const DesignTask& task, Output output) {
   return task.objective.size() == 1 && task.objective.front().output == output && task.objective.front().weight == 1.0;
 }
 
-std::vector<double> unscaled(const ScatterDesign& design, const DesignTask& task) {
+std::vector<double> unscaled(const Eigen::VectorXd& x, const DesignTask& task) {
   std::vector<double> values;
-  for (std::size_t i = 0; i < task.variables.size(); ++i) values.push_back(task.variables[i].unscaled(design.x[static_cast<Eigen::Index>(i)]));
+  for (std::size_t i = 0; i < task.variables.size(); ++i) values.push_back(task.variables[i].unscaled(x[static_cast<Eigen::Index>(i)]));
   return values;
 }
 

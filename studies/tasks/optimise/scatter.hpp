@@ -31,21 +31,16 @@ struct ClassDesign {
   double te{not_given};               ///< of the transmission error, peak to peak, likewise [um]
 };
 
-/// One drawn pair of gears in its housing.
-struct ScatterDraw {
-  std::vector<DesignScene> load_cases;  ///< of all operating states
-};
-
 /// [optimise.scatter], run.
 struct ScatterResult {
   ScatterDesign design;
-  double search_seconds{not_given};  ///< of the search without scatter, over the listed scenes, that came before
-  std::vector<double> without;       ///< variables of the design without scatter [mm; parabolic_te 1/rad]
-  double without_value{not_given};   ///< its statistic over the draws
-  std::vector<ScatterDraw> draws;
-  std::vector<OperatingState> states;  ///< each of which every draw runs through
-  PredictedStatistic predicted;        ///< of `design`, from draws that its search has not seen; NaN where none were asked for
-  std::vector<FreshDesign> fresh;      ///< "before", "without scatter", "after"; empty: not asked for
+  double search_seconds{not_given};             ///< of the search without scatter, over the listed scenes, that came before
+  std::vector<double> without;                  ///< variables of the design without scatter [mm; parabolic_te 1/rad]
+  double without_value{not_given};              ///< its statistic over the draws
+  std::vector<std::vector<DesignScene>> draws;  ///< of each drawn pair of gears in its housing the load cases of all operating states
+  std::vector<OperatingState> states;           ///< each of which every draw runs through
+  PredictedStatistic predicted;                 ///< of `design`, from draws that its search has not seen; NaN where none were asked for
+  std::vector<FreshDesign> fresh;               ///< "before", "without scatter", "after"; empty: not asked for
   std::vector<ClassDesign> classes;
   double fresh_seconds{not_given}, classes_seconds{not_given};
 
@@ -58,8 +53,8 @@ struct ScatterResult {
 /// Whether an output is the objective by itself.
 bool is_objective(const DesignTask& task, Output output);
 
-/// Variables of a design [mm; parabolic_te 1/rad].
-std::vector<double> unscaled(const ScatterDesign& design, const DesignTask& task);
+/// Variables [mm; parabolic_te 1/rad] of what a search had scaled.
+std::vector<double> unscaled(const Eigen::VectorXd& x, const DesignTask& task);
 
 /// Load cases of drawn scenes, as StudyRun::loaded().
 using LoadCases = std::function<std::vector<DesignScene>(const std::vector<Scene>&)>;

@@ -14,16 +14,10 @@ namespace flankwright::studies {
 
 namespace {
 
-Json variables_of(const std::vector<double>& values, const DesignTask& task) {
-  Json json = Json::object();
-  for (std::size_t i = 0; i < task.variables.size(); ++i) json[task.variables[i].path] = values[i] * task.variables[i].outside_factor();
-  return json;
-}
-
 Json search_json(const ScatterDesign& design, const DesignTask& task) {
   Json json{{"status", to_string(design.status)},
             {"message", design.message},
-            {"variables", variables_of(unscaled(design, task), task)},
+            {"variables", variables_json(unscaled(design.x, task), task)},
             {"value", design.value},
             {"steps", design.steps},
             {"draws_deciding", design.decided_by},
@@ -50,7 +44,7 @@ Json deciding_json(const ScatterResult& result) {
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return result.design.weights[a] > result.design.weights[b]; });
   if (order.size() > most_shown) order.resize(most_shown);
   return list(order, [&](std::size_t s) -> Json {
-    const std::vector<DesignScene>& load_cases = result.draws[s].load_cases;
+    const std::vector<DesignScene>& load_cases = result.draws[s];
     return {{"draw", name_of_draw(load_cases.front().draw)},
             {"torque_Nm", load_cases.size() == 1 ? Json(in_Nm(load_cases.front().torque)) : Json()},
             {"weight", result.design.weights[s]},
@@ -79,12 +73,13 @@ Json scatter_json(const ScatterResult& result, const DesignTask& task, const Stu
             {"draws", asked.draws},
             {"seed", asked.seed},
             {"states", list(result.states, [](const OperatingState& state) -> Json { return state.scene.name; })},
-            {"load_cases_of_a_draw", result.draws.front().load_cases.size()},
+            {"load_cases_of_a_draw", result.draws.front().size()},
             {"within_draw", to_string(task.within_draw)},
             {"tolerances", list(study.tolerances, tolerance_json)}};
   if (study.tolerance_class) json["iso_1328_class"] = *study.tolerance_class;
   json.update(search_json(result.design, task));
-  json["without_scatter"] = {{"variables", variables_of(result.without, task)}, {"value", result.without_value}, {"seconds", result.search_seconds}};
+  json["without_scatter"] = {
+      {"variables", variables_json(result.without, task)}, {"value", result.without_value}, {"seconds", result.search_seconds}};
   if (!std::isnan(result.predicted.value)) {
     const PredictedStatistic& predicted = result.predicted;
     json["predicted"] = {{"draws", asked.predicted_from},
@@ -138,7 +133,7 @@ std::vector<NamedText> scatter_tables(const ScatterResult& result, const DesignT
     csv += "\n";
     for (const ClassDesign& c : result.classes) {
       csv += fmt::format("{},{},{},{},{}", c.tolerance_class, c.design.value, c.without_scatter, c.contact_stress, c.te);
-      const std::vector<double> values = unscaled(c.design, task);
+      const std::vector<double> values = unscaled(c.design.x, task);
       for (std::size_t i = 0; i < values.size(); ++i) csv += fmt::format(",{}", values[i] * task.variables[i].outside_factor());
       csv += "\n";
     }

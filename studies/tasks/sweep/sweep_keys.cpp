@@ -1,5 +1,6 @@
 #include "studies/tasks/sweep/sweep_keys.hpp"
 
+#include "studies/study_file/distribution_reading.hpp"
 #include "studies/study_file/key_rows.hpp"
 #include "studies/tasks/sweep/sweep_table.hpp"
 
@@ -23,7 +24,8 @@ std::vector<SchemaKey> sweep_keys() {
       {.path = "sweep.indices", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
        .meaning = "samples in blocks of parameters + 2, from which Sobol indices follow; off: all independent; without meaning in a grid",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.table<SweepTable>().indices = v.text == "on"; }},
-      {.path = "sweep.parameters", .kind = Distributions, .fallback = "(none)",
+      {.path = "sweep.parameters", .kind = Free, .allowed = distributions_in_words,
+       .fallback = "(none)",
        .meaning = "\"misalignment.mesh_misalignment\" = { normal = [0, 6] }: what scatters, in the unit of its key"},
   };
 }

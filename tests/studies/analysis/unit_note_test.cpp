@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "studies/analysis/study_notes.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_texts.hpp"
 
@@ -36,4 +37,22 @@ TEST_CASE("A key that acts only beside others is said to be unused without them"
   CHECK(is_said(alone, "pinion.meshes_per_revolution", "2"));
   CHECK(is_said(alone, "unit.reference_torque", "300"));
   CHECK(!is_said(in_unit, "unit.reference_torque", "300"));
+}
+
+TEST_CASE("A table of another task is said to be unused where the study names no task", "[studies][analysis]") {
+  const auto said = [](const std::string& table, const std::vector<Override>& overrides) {
+    const Study study = study_texts::read(table, overrides);
+    std::vector<std::string> found;
+    for (const std::string& note : study_notes(study, flankwright::make_gear_pair(study.pair))) {
+      if (note.find("but no task") != std::string::npos) found.push_back(note);
+    }
+    return found;
+  };
+  const std::string fit = "[fit]\nmax_iterations = 300\n", finest = "[accuracy.finest]\nintervals = 32\n";
+  CHECK(said("", {}).empty());
+  CHECK(said("[analyse]\ngradients = [\"misalignment.crossing\"]\n", {}).empty());
+  CHECK(said(fit, {}) == std::vector<std::string>{"the study has [fit] but no task, so it is analysed: task = \"fit\" would use it"});
+  CHECK(said(fit + finest, {}).size() == 2);
+  CHECK(said(fit, {{"task", "analyse"}}).empty());
+  CHECK(said(fit + finest, {{"task", "fit"}}).empty());
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/study/task.hpp"
 #include "tests/studies/command_line.hpp"
 
 namespace flankwright::studies {
@@ -71,6 +72,9 @@ TEST_CASE("The completion completes in bash", "[studies][cli]") {
   CHECK(completed("flankwright exp", 1) == "export\n");
   CHECK(completed("flankwright export r --vt", 3) == "--vtk\n");
   CHECK(completed("flankwright new opt", 2) == "optimise\n");
+  for (const Task* task : registered_tasks()) {
+    CHECK(completed("flankwright new " + std::string(task->name), 2) == std::string(task->name) + "\n");
+  }
   CHECK(completed("flankwright completion z", 2) == "zsh\n");
   CHECK(completed("flankwright check flank", 2) == "flankwright.bash\n");
 }

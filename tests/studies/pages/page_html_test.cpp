@@ -19,11 +19,9 @@ namespace fs = std::filesystem;
 using Catch::Contains;
 
 std::string html_of(const std::string& markdown) {
-  return page_html(markdown, "../",
-                   [](const std::string& link) {
-                     return link.ends_with(".md") ? link.substr(0, link.size() - 3) + ".html" : link == "folder" ? std::string() : link;
-                   })
-      .html;
+  return page_html(markdown, "../", [](const std::string& link) {
+    return link.ends_with(".md") ? link.substr(0, link.size() - 3) + ".html" : link == "folder" ? std::string() : link;
+  });
 }
 
 std::string text_of_page(const fs::path& file) {

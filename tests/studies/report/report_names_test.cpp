@@ -4,8 +4,8 @@
 
 #include "core/contact/gap/misalignment_gap.hpp"
 #include "core/flank/modifications/modification.hpp"
+#include "optimize/design/outputs/design_output.hpp"
 #include "studies/base/plain_names.hpp"
-#include "studies/study_file/study_schema.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -30,7 +30,7 @@ TEST_CASE("Every modification, misalignment and output has a name that a person 
     for (const std::string gear : {"pinion", "wheel"}) CHECK(known.count(gear + ".modification." + std::string(row.key)) == 1);
   });
   for (const NamedMisalignmentParameter& parameter : misalignment_parameters) CHECK(known.count("misalignment." + std::string(parameter.name)) == 1);
-  for (const std::string& output : output_names()) CHECK(known.count(output) == 1);
+  for (const std::string& output : term_names()) CHECK(known.count(output) == 1);
 }
 
 TEST_CASE("The remark on a relief is beside its amount", "[studies][report][modification]") {

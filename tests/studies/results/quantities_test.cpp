@@ -94,14 +94,14 @@ TEST_CASE("Every output that can be minimised is a word of the study file, and w
           "[studies][results][quantities]") {
   for (const std::string& name : term_names()) {
     INFO(name);
-    const auto found = find_output(name);
+    const auto found = find_term(name);
     REQUIRE(found);
-    CHECK(found->term.own_name() == name);
+    CHECK(found->own_name() == name);
     CHECK(plain_name(name) != name);
     const CycleEntry entry = find_cycle_entry(name);
     if (entry.quantity == nullptr) continue;  // of the positions alone
-    CHECK((std::string(found->term.unit()) == "1" ? "" : found->term.unit()) == std::string(entry.quantity->unit));
-    CHECK(found->term.outside_factor() == Approx(1.0 / entry.quantity->unit_size).epsilon(1e-14));  // round-off
+    CHECK((std::string(found->unit()) == "1" ? "" : found->unit()) == std::string(entry.quantity->unit));
+    CHECK(found->outside_factor() == Approx(1.0 / entry.quantity->unit_size).epsilon(1e-14));  // round-off
   }
   for (const DesignOutput& row : design_outputs()) {
     INFO(row.name);

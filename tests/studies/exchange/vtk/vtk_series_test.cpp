@@ -81,7 +81,7 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
       small::analysis(), "a", {{"pinion.hand", hand}, {"pair.working_flank", flank}, {"cycle.positions", "3"}, {"cycle.peaks", "sampled"}}));
   const Json json = results_document(results);
   std::map<std::string, std::string> files;
-  for (const ExportedFile& file : vtk_series(json, "a")) files[file.name] = file.text;
+  for (const NamedText& file : vtk_series(json, "a")) files[file.name] = file.text;
   REQUIRE(files.size() == 2 * (1 + 3 * 3));  // two scenes, three positions, three parts
 
   pugi::xml_document collection;
@@ -139,7 +139,7 @@ TEST_CASE("A scene on the other flank is drawn on that flank, with what the tool
     all.insert(all.end(), overrides.begin(), overrides.end());
     const StudyResults results = run_study(parse_study(small::analysis(), "a", all));
     std::map<std::string, std::string> files;
-    for (const ExportedFile& file : vtk_series(results_document(results), "a")) files[file.name] = file.text;
+    for (const NamedText& file : vtk_series(results_document(results), "a")) files[file.name] = file.text;
     return std::pair{read_piece(files.at("contact-2/lines-0000.vtp"), "Lines"), read_piece(files.at("contact-2/pinion-0000.vtp"), "Polys")};
   };
   const auto [lines, flank] = pieces({{"scenes.1.working_flank", "left"}, {"pinion.modification.lead_slope", "6"}});
@@ -160,7 +160,7 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
       {{"pair.working_flank", flank}, {"scenes.0.misalignment.axial_offset", offset}, {"cycle.positions", "2"}, {"cycle.peaks", "sampled"}}));
   const GearPair& pair = results.pair;
   std::map<std::string, std::string> files;
-  for (const ExportedFile& file : vtk_series(results_document(results), "a")) files[file.name] = file.text;
+  for (const NamedText& file : vtk_series(results_document(results), "a")) files[file.name] = file.text;
   const Piece lines = read_piece(files.at("contact-1/lines-0000.vtp"), "Lines");
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     const Gear& gear = pair[m];
@@ -200,7 +200,7 @@ TEST_CASE("A value that was not computed is NaN, and the following points keep t
   REQUIRE(points.size() > 2);
   points[1]["gap_um"] = nullptr;
   std::map<std::string, std::string> files;
-  for (const ExportedFile& file : vtk_series(json, "a")) files[file.name] = file.text;
+  for (const NamedText& file : vtk_series(json, "a")) files[file.name] = file.text;
   const std::vector<double> gaps = read_piece(files.at("contact-1/lines-0000.vtp"), "Lines").fields.at("gap_um");
   CHECK(std::isnan(gaps[1]));
   CHECK(gaps[0] == points[0]["gap_um"].get<double>());
