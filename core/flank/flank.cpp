@@ -53,7 +53,7 @@ Flank make_flank(const GearPair& pair, Member member, const Modification& modifi
   flank.modification = modification;
   flank.error = error;
   flank.modification.parabolic_te = 0.0;
-  flank.modification.topography = nullptr;
+  flank.modification.topography = flank.modification.opposite_topography = nullptr;
   flank.modification.process = {};
   if (auto generated = make_generated_field(pair, member)) flank.fields.push_back(std::move(generated));
   if (modification.parabolic_te != 0.0) flank.fields.push_back(make_conjugate_field(pair, member, modification.parabolic_te));

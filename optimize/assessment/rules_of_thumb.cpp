@@ -110,6 +110,7 @@ std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis&
       if (design.name.empty()) design.name = "unmodified";
       for (const Member m : {Member::Pinion, Member::Wheel}) {
         design.modification[m].topography = task.modification[m].topography;
+        design.modification[m].opposite_topography = task.modification[m].opposite_topography;
         design.modification[m].process = task.modification[m].process;
       }
       profile.apply(design.modification);

@@ -97,6 +97,8 @@ void note_unused_keys(const Study& study, std::vector<std::string>& notes) {
     const std::string gear = std::string(name_of(m)) + ".", why = fmt::format("the process is \"{}\"", to_string(kind));
     note(gear + "twist_compensation", kind == GrindingKind::GeneratingGrinding || kind == GrindingKind::FormGrinding, why);
     note(gear + "grinding_wheel_diameter", kind == GrindingKind::FormGrinding, why);
+    const bool loads_opposite = std::ranges::any_of(study.scenes, [&](const Scene& scene) { return loads_other_flanks(study, scene); });
+    note(gear + "modification.grid_of_opposite_flank", loads_opposite, "no scene loads the flank that pair.working_flank does not name");
     note(gear + "meshes_per_revolution", !study.spectrum.empty(), "only a load spectrum has cycles");
   }
   const UnitData& unit = study.unit;

@@ -66,6 +66,7 @@ Json macro_json(const StudyResults& results, Member member) {
              {"generation", generation_json(gear.data.generation)},
              {"process", process_json(results.study.modification[member].process)},
              {"grid", grid_json(results.study.grid[member])},
+             {"grid_of_opposite_flank", grid_json(results.study.opposite_grid[member])},
              {"youngs_modulus_MPa", material.youngs_modulus},
              {"poissons_ratio", material.poissons_ratio}};
   for (const auto& [key, chamfer] : {std::pair{"tip_chamfer", gear.data.tip_chamfer}, std::pair{"end_chamfer", gear.data.end_chamfer}}) {

@@ -100,8 +100,8 @@ struct Study {
   std::string file;                              ///< path as given
   const Task* task{registered_tasks().front()};  ///< never null
   PairData pair;
-  PerGear<Modification> modification;  ///< with the field of the grid below
-  PerGear<GivenGrid> grid;
+  PerGear<Modification> modification;             ///< with the field of the grid below
+  PerGear<GivenGrid> grid, opposite_grid;         ///< of the pair's own flanks and of the opposite ones
   PerGear<std::vector<std::string>> tooth_grids;  ///< files of single teeth's errors, empty: none of this tooth
   PerGear<ManufacturingError> error;
   Misalignment misalignment;

@@ -10,6 +10,7 @@ namespace flankwright::studies {
 namespace {
 
 GivenGrid& grid(StudyBuilder& builder, Member m) { return builder.study.grid[m]; }
+GivenGrid& opposite_grid(StudyBuilder& builder, Member m) { return builder.study.opposite_grid[m]; }
 std::vector<std::string>& tooth_grids(StudyBuilder& builder, Member m) { return builder.study.tooth_grids[m]; }
 ManufacturingError& error(Scene& scene, Member m) { return scene.error[m]; }
 
@@ -69,13 +70,20 @@ std::vector<SchemaKey> grid_and_error_rows() {
        .meaning = "CSV file, beside the study unless its path says otherwise: measured or topological deviation, "
                   "columns radius_mm, z_mm, deviation_um (+ = metal added, normal to the flank)",
        .store = [](StudyBuilder& d, Member m, const Value& v) { grid(d, m).file = v.text; }},
+      {.path = "gear.modification.grid_of_opposite_flank", .kind = Text, .fallback = "(none)",
+       .meaning = "CSV file of the same form for the flank that pair.working_flank does not name, in the same z; used where a scene loads it",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { opposite_grid(d, m).file = v.text; }},
       {.path = "gear.modification.grid_smoothing.profile_pieces", .kind = Integer, .range = {.low = 1, .high = 1000},
        .fallback = "(through every point)",
        .meaning = "cubic pieces of the surface along the profile; the fewer, the smoother, fitted by least squares",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { grid(d, m).profile_pieces = static_cast<int>(v.integer); }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) {
+         grid(d, m).profile_pieces = opposite_grid(d, m).profile_pieces = static_cast<int>(v.integer);
+       }},
       {.path = "gear.modification.grid_smoothing.face_pieces", .kind = Integer, .range = {.low = 1, .high = 1000},
        .fallback = "(through every point)", .meaning = "the same along the face",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { grid(d, m).face_pieces = static_cast<int>(v.integer); }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) {
+         grid(d, m).face_pieces = opposite_grid(d, m).face_pieces = static_cast<int>(v.integer);
+       }},
 
       {.path = "gear.error.helix_slope", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
        .meaning = "f_Hbeta over the face width, metal added; + adds at z = +b/2, zero at mid face; a list: of each tooth",

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/gear/both_gears.hpp"
 #include "core/flank/measured_grid.hpp"
 #include "studies/study_file/grid_file.hpp"
 
@@ -82,21 +83,12 @@ class GridReading {
   GridReading(StudyReading& reading, const GearPair& pair, Member member)
       : reading_(reading), pair_(pair), member_(member), prefix_(member == Member::Pinion ? "pinion.modification." : "wheel.modification.") {}
 
-  /// The fitted field and what is to be said about it; problems go to the reading.
-  void read(Modification& modification, GivenGrid& grid) const {
-    const Match* match = reading_.find(prefix_ + "grid");
-    if (match == nullptr) return check_smoothing_alone();
-    read(*match, grid.file, {grid.profile_pieces, grid.face_pieces}, [&](const MeasuredGrid& points, const GridFit& fit) {
-      modification.topography = fit.field;
-      grid.rows = static_cast<int>(points.radii.size());
-      grid.columns = static_cast<int>(points.z.size());
-      grid.lowest_radius = points.radii.front();
-      grid.highest_radius = points.radii.back();
-      grid.lowest_z = points.z.front();
-      grid.highest_z = points.z.back();
-      grid.rms = fit.rms;
-      grid.largest = fit.largest;
-    });
+  /// The fitted field of each flank that has one, and what is to be said about it; problems go to the reading.
+  void read(Modification& modification, GivenGrid& own, GivenGrid& opposite) const {
+    const Match *of_own = reading_.find(prefix_ + "grid"), *of_opposite = reading_.find(prefix_ + "grid_of_opposite_flank");
+    if (of_own == nullptr && of_opposite == nullptr) return check_smoothing_alone();
+    if (of_own != nullptr) modification.topography = read(*of_own, own);
+    if (of_opposite != nullptr) modification.opposite_topography = read(*of_opposite, opposite);
   }
 
   /// The fields of single teeth, one a file; null for "".
@@ -121,6 +113,22 @@ class GridReading {
   }
 
  private:
+  std::shared_ptr<const DeviationField> read(const Match& match, GivenGrid& grid) const {
+    std::shared_ptr<const DeviationField> field;
+    read(match, grid.file, {grid.profile_pieces, grid.face_pieces}, [&](const MeasuredGrid& points, const GridFit& fit) {
+      field = fit.field;
+      grid.rows = static_cast<int>(points.radii.size());
+      grid.columns = static_cast<int>(points.z.size());
+      grid.lowest_radius = points.radii.front();
+      grid.highest_radius = points.radii.back();
+      grid.lowest_z = points.z.front();
+      grid.highest_z = points.z.back();
+      grid.rms = fit.rms;
+      grid.largest = fit.largest;
+    });
+    return field;
+  }
+
   /// Reads and fits a file and hands on what came out; problems go to the reading, at the key that names it.
   template <typename Use>
   void read(const Match& match, const std::string& file, const GridFitOptions& smoothing, Use&& use) const {
@@ -176,15 +184,11 @@ void read_grids(StudyReading& reading) {
   if (!reading.problems.empty()) return;
   Study& study = reading.builder.study;
   const GearPair pair = make_gear_pair(study.pair);
-  GridReading(reading, pair, Member::Pinion).read(study.modification.pinion, study.grid.pinion);
-  GridReading(reading, pair, Member::Wheel).read(study.modification.wheel, study.grid.wheel);
-  const auto pinion_teeth = GridReading(reading, pair, Member::Pinion).read_teeth(study.tooth_grids.pinion);
-  const auto wheel_teeth = GridReading(reading, pair, Member::Wheel).read_teeth(study.tooth_grids.wheel);
-  study.error.pinion.topographies = pinion_teeth;
-  study.error.wheel.topographies = wheel_teeth;
-  for (Scene& scene : study.scenes) {
-    scene.error.pinion.topographies = pinion_teeth;
-    scene.error.wheel.topographies = wheel_teeth;
+  for (const Member m : both_gears) {
+    const GridReading gear(reading, pair, m);
+    gear.read(study.modification[m], study.grid[m], study.opposite_grid[m]);
+    study.error[m].topographies = gear.read_teeth(study.tooth_grids[m]);
+    for (Scene& scene : study.scenes) scene.error[m].topographies = study.error[m].topographies;
   }
 }
 

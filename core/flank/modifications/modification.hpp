@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <memory>
+#include <utility>
 
 #include "core/flank/grinding_process.hpp"
 #include "core/flank/modifications/end_relief.hpp"
@@ -33,6 +34,8 @@ using Modifications =
 struct Modification : Modifications {
   /// Measured or topological grid on top of the rest; none where null.
   std::shared_ptr<const DeviationField> topography{};
+  /// The same of the opposite flank of each tooth, see on_opposite_flank().
+  std::shared_ptr<const DeviationField> opposite_topography{};
   GrindingProcess process{};                             ///< which may move the lead modifications over the flank, see ContactShift
   bool operator==(const Modification&) const = default;  ///< of grids: the same object
 };
@@ -117,9 +120,9 @@ inline void set(Modification& m, ModificationParameter parameter, double value) 
 /// What a tool that is dressed alike for both flanks leaves on the opposite one in the same setting: the flank that works when the gear is turned over,
 /// end for end. Removal at z there is that at -z here, so that numbers that are odd along the face change their signs: a lead slope is one of the helix
 /// angle, for both flanks. A process twists each flank as ContactShift has it.
-/// Needs a modification without a grid, which belongs to one flank.
+/// A grid belongs to one flank: there is that of the opposite one.
 inline Modification on_opposite_flank(Modification m) {
-  assert(!m.topography);
+  std::swap(m.topography, m.opposite_topography);
   for (const ModificationDescriptor& d : modification_parameters) {
     if (d.odd_along_face) d.set(m, -d.get(m));
   }
@@ -133,9 +136,9 @@ inline bool has_lead_modification(const Modifications& m) {
   });
 }
 
-/// The lead or profile modifications alone, without grid and as drawn, whatever the process makes of them.
+/// The lead or profile modifications alone, without grids and as drawn, whatever the process makes of them.
 inline Modification only(const Modification& modification, ModificationClass flank_class) {
-  return {only(static_cast<const Modifications&>(modification), flank_class), nullptr, {}};
+  return {only(static_cast<const Modifications&>(modification), flank_class), nullptr, nullptr, {}};
 }
 
 }  // namespace flankwright

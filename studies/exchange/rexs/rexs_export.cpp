@@ -157,7 +157,7 @@ class Export {
   /// A component for every modification that the format has one for; the others become points of a topography.
   void add_modifications(Member m) {
     Modification rest = modification(m);
-    rest.topography = nullptr;
+    rest.topography = rest.opposite_topography = nullptr;
     for_each_modification(modification(m), [&]<class Part>(const Part& part) {
       if constexpr (requires { this->write(m, part); }) {
         if (removes_something(part)) this->write(m, part);

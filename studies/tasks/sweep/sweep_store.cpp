@@ -1,4 +1,5 @@
 #include "studies/base/version.hpp"
+#include "core/gear/both_gears.hpp"
 #include "studies/tasks/sweep/sweep_store.hpp"
 
 #include <fmt/format.h>
@@ -127,8 +128,10 @@ std::vector<GivenValue> deciding_settings(const Study& study) {
   const auto add_file = [&](const std::string& key, const std::string& file) {
     if (!file.empty()) settings.emplace("contents of " + key, contents_of(fs::path(study.file).parent_path() / file));
   };
-  add_file("pinion.modification.grid", study.grid.pinion.file);
-  add_file("wheel.modification.grid", study.grid.wheel.file);
+  for (const Member m : both_gears) {
+    add_file(name_of(m) + std::string(".modification.grid"), study.grid[m].file);
+    add_file(name_of(m) + std::string(".modification.grid_of_opposite_flank"), study.opposite_grid[m].file);
+  }
   add_file("load.spectrum.file", study.spectrum_source.file);
   add_file("load.spectrum.signal", study.spectrum_source.signal);
   for (const auto& [gear, files] : {std::pair{"pinion", &study.tooth_grids.pinion}, std::pair{"wheel", &study.tooth_grids.wheel}}) {

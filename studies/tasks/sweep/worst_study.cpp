@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/gear/both_gears.hpp"
 #include "studies/study_file/study_document.hpp"
 #include "studies/tasks/sweep/sweep_design.hpp"
 #include "studies/tasks/sweep/sweep_table.hpp"
@@ -27,9 +28,13 @@ std::string absolute(const Study& study, const std::string& file) {
   return std::filesystem::absolute(std::filesystem::path(study.file).parent_path() / file).lexically_normal().string();
 }
 
-void add_grids(const Study& study, const std::string& gear, const GivenGrid& grid, const std::vector<std::string>& teeth,
-               std::vector<Override>& overrides) {
-  if (!grid.file.empty()) overrides.push_back({gear + ".modification.grid", quoted(absolute(study, grid.file))});
+void add_grids(const Study& study, Member m, std::vector<Override>& overrides) {
+  const std::string gear = name_of(m);
+  if (!study.grid[m].file.empty()) overrides.push_back({gear + ".modification.grid", quoted(absolute(study, study.grid[m].file))});
+  if (!study.opposite_grid[m].file.empty()) {
+    overrides.push_back({gear + ".modification.grid_of_opposite_flank", quoted(absolute(study, study.opposite_grid[m].file))});
+  }
+  const std::vector<std::string>& teeth = study.tooth_grids[m];
   if (teeth.empty()) return;
   std::string list;
   for (const std::string& file : teeth) list += (list.empty() ? "[" : ", ") + quoted(absolute(study, file));
@@ -61,8 +66,7 @@ std::string sample_study(const Study& study, const std::string& title, const std
   }
   if (study.cycle.automatic_positions && study.cycle.phases.empty())
     overrides.push_back({"cycle.positions", fmt::format("{}", study.cycle.positions)});
-  add_grids(study, "pinion", study.grid.pinion, study.tooth_grids.pinion, overrides);
-  add_grids(study, "wheel", study.grid.wheel, study.tooth_grids.wheel, overrides);
+  for (const Member m : both_gears) add_grids(study, m, overrides);
   add_spectrum_file(study, overrides);
   std::vector<StudyProblem> problems;
   const StudyDocument document(study.text, study.file, overrides, problems);

@@ -8,6 +8,7 @@
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/command_line.hpp"
 #include "tests/studies/small_studies.hpp"
 
 /// Scenes that load the flanks behind the pair's own, which the same tool grinds.
@@ -118,6 +119,39 @@ TEST_CASE("On the other flank a gear unit's forces turn round, but for those tha
       refused(small::unit_pair() + small::unit() + load("20") + scenes, {{"scenes.1.working_flank", "right"}, {"unit.loads.0.constant", "no"}});
   CHECK(turns.key == "scenes.1.working_flank");
   CHECK_THAT(turns.allowed, Catch::Contains("unit.loads.0"));
+}
+
+TEST_CASE("Measured grids of both flanks are each of the flank that a scene loads", "[studies][other-flank][grid]") {
+  // The pinion of the small study, r_a = 113.9 mm: a slope along the face, which another grid has the other way round and half as large.
+  const auto grid = [](double slope) {
+    std::string csv = "radius_mm;z_mm;deviation_um\n";
+    for (const int radius : {98, 102, 106, 110, 113}) {
+      for (const int z : {-58, -20, 20, 58}) csv += std::to_string(radius) + ";" + std::to_string(z) + ";" + std::to_string(slope * z) + "\n";
+    }
+    return csv;
+  };
+  const command_line::ScratchFolder folder;
+  folder.file("drive.csv", grid(0.2));
+  folder.file("coast.csv", grid(-0.1));
+  const auto run_in_folder = [&](const std::string& text, const std::vector<Override>& overrides) {
+    return run_study(read_study(folder.file("small.toml", text), overrides));
+  };
+  const std::string turned = small::analysis() + "working_flank = \"left\"\n";
+  const std::vector<Override> drive{{"pinion.modification.grid", "drive.csv"}};
+  const std::vector<Override> both_grids{drive.front(), {"pinion.modification.grid_of_opposite_flank", "coast.csv"}};
+  const StudyResults both = run_in_folder(turned, both_grids);
+  const StudyResults coast = run_in_folder(small::analysis(), {{"pair.working_flank", "left"}, {"pinion.modification.grid", "coast.csv"}});
+  const StudyResults own = run_in_folder(small::analysis(), drive);
+  constexpr double round_off = 1e-9;
+  CHECK(both.loaded[0].summary.peak_contact_stress == Approx(own.loaded[0].summary.peak_contact_stress).epsilon(round_off));
+  CHECK(both.loaded[1].summary.peak_contact_stress == Approx(coast.loaded[1].summary.peak_contact_stress).epsilon(round_off));
+  CHECK(both.loaded[1].summary.te_mean == Approx(coast.loaded[1].summary.te_mean).epsilon(round_off));
+  CHECK(std::abs(both.loaded[1].summary.peak_contact_stress / own.loaded[1].summary.peak_contact_stress - 1.0) > 0.05);  // they do differ
+  // One grid alone is of one flank, and one that nothing loads is named.
+  CHECK_THROWS_AS(run_in_folder(turned, drive), StudyErrors);
+  const auto is_unused = [](const std::string& note) { return note.starts_with("pinion.modification.grid_of_opposite_flank is not used"); };
+  CHECK(std::ranges::count_if(both.notes, is_unused) == 0);
+  CHECK(std::ranges::count_if(run_in_folder(small::analysis(), both_grids).notes, is_unused) == 1);
 }
 
 TEST_CASE("What is known of one flank alone keeps scenes to that flank", "[studies][other-flank]") {
