@@ -60,6 +60,9 @@ struct DamagedPoint {
   bool exceeds_static_limit{false};        ///< a load case exceeds the static limit somewhere on the gear
 };
 
+/// The point of each gear; nothing where its damage is not known.
+using DamagedPoints = PerGear<std::optional<DamagedPoint>>;
+
 /// The damage at one point of the flanks.
 struct FlankDamage {
   double z, pinion_radius, wheel_radius;         ///< [mm]
@@ -72,7 +75,7 @@ struct FlankDamage {
 struct SpectrumLife {
   std::string scene, design;
   std::vector<std::size_t> cases;  ///< indices into StudyLife::cases
-  PerGear<std::optional<DamagedPoint>> contact, root;
+  DamagedPoints contact, root;
   std::vector<FlankDamage> map;  ///< of all contact points; empty without a curve of the flanks
 };
 

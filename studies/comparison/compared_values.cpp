@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/fidelity/cycle_quantities.hpp"
+#include "studies/analysis/life_quantities.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/base/unit_of_name.hpp"
@@ -177,8 +178,9 @@ void add_unloaded(const Json& results, std::size_t run, Rows& rows) {
 }
 
 void add_life(const Json& results, std::size_t run, Rows& rows) {
-  static constexpr std::array shown{
-      "S_H", "S_F", "contact_safety", "root_safety", "loss_power_W", "specific_film_thickness", "contact_temperature_degC"};
+  const auto is_shown = [](std::string_view key) {
+    return std::ranges::any_of(life_quantities(), [&](const LifeQuantity& quantity) { return quantity.is_compared && quantity.key == key; });
+  };
   const Json& life = member(results, "life");
   const auto is_final = [](const Json& of) { return member(of, "design") != "before"; };
   const Json& cases = member(life, "cases");
@@ -187,7 +189,7 @@ void add_life(const Json& results, std::size_t run, Rows& rows) {
     visit(of, "", [&](const std::string& name, double value) {
       ComparedValue& row = rows.row("life, " + load_case_name(of), name);
       row.values[run] = value;
-      row.headline = few && is_final(of) && std::ranges::find(shown, name.substr(name.rfind('.') + 1)) != shown.end();
+      row.headline = few && is_final(of) && is_shown(std::string_view(name).substr(name.rfind('.') + 1));
     });
   }
   for (const Json& of : member(life, "spectra")) {

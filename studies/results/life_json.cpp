@@ -1,10 +1,10 @@
 #include "studies/results/life_json.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "core/gear/both_gears.hpp"
 #include "optimize/design/outputs/scene_outputs.hpp"
+#include "studies/analysis/life_quantities.hpp"
 #include "studies/results/gradient_rows.hpp"
 #include "studies/results/gradients_json.hpp"
 
@@ -37,36 +37,15 @@ Json grade_json(const LifeTable& life, Member m) {
 }
 
 Json gear_case_json(const CaseLife& of, Member m) {
-  return {{"contact_safety", of.contact_safety[m]},
-          {"root_safety", of.root_safety[m]},
-          {"contact_damage", of.contact_damage[m]},
-          {"root_damage", of.root_damage[m]},
-          {"sigma_H_MPa", of.iso_contact[m]},
-          {"sigma_F_MPa", of.iso_root[m]},
-          {"S_H", of.iso_contact_safety[m]},
-          {"S_F", of.iso_root_safety[m]},
-          {"Y_F", of.iso.Y_F[m]},
-          {"Y_S", of.iso.Y_S[m]},
-          {"Y_B", of.iso.Y_B[m]}};
+  Json json = Json::object();
+  for (const LifeQuantity& quantity : life_quantities()) {
+    if (quantity.of_gears != nullptr) json[std::string(quantity.key)] = quantity.of(of, m);
+  }
+  json.update({{"Y_F", of.iso.Y_F[m]}, {"Y_S", of.iso.Y_S[m]}, {"Y_B", of.iso.Y_B[m]}});
+  return json;
 }
 
-/// A figure of a load case, and the output that it is or that is its reciprocal.
-struct LifeFigure {
-  const char* key;
-  double CaseLife::*value;
-  Output output;
-  bool is_safety{false};
-};
-constexpr std::array<LifeFigure, 6> life_figures{{
-    {"loss_factor", &CaseLife::loss_factor, Output::LossFactor},
-    {"specific_film_thickness", &CaseLife::film, Output::SpecificFilmThickness},
-    {"micropitting_safety", &CaseLife::micropitting_safety, Output::MicropittingUtilisation, true},
-    {"flash_temperature_K", &CaseLife::flash_temperature, Output::FlashTemperature},
-    {"contact_temperature_degC", &CaseLife::contact_temperature, Output::ContactTemperature},
-    {"scuffing_safety", &CaseLife::scuffing_safety, Output::ScuffingUtilisation, true},
-}};
-
-/// Derivatives at the point and position of each figure; null by parameters that move the points of contact.
+/// Derivatives at the point and position of each quantity of the pair; null by parameters that move the points of contact.
 Json gradients_of(const StudyResults& results, const CaseLife& of) {
   const LoadedResult& loaded = results.loaded[of.loaded];
   const MeshModel& model = results.models[loaded.model];
@@ -74,13 +53,15 @@ Json gradients_of(const StudyResults& results, const CaseLife& of) {
   const LoadedScene scene{model, loaded.cycle, &loaded.operation, results.life_model.get()};
   const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, outside.parameters());
   Json json = Json::object();
-  for (const LifeFigure& figure : life_figures) {
-    json[figure.key] = nullptr;
-    if (std::isnan(of.*figure.value)) continue;
-    const ObjectiveTerm term{.output = figure.output, .name = figure.key, .reciprocal = figure.is_safety};
+  for (const LifeQuantity& quantity : life_quantities()) {
+    if (quantity.of_pair == nullptr || !quantity.output) continue;
+    const std::string key(quantity.key);
+    json[key] = nullptr;
+    if (std::isnan(of.*quantity.of_pair)) continue;
+    const ObjectiveTerm term{.output = *quantity.output, .name = key, .reciprocal = quantity.is_reciprocal};
     Eigen::RowVectorXd gradient = candidate_value(term, leading_candidates(term, scene, 0.0, 1).front(), scene).gradient.transpose();
     for (const Eigen::Index p : moving) gradient[p] = not_given;
-    json[figure.key] = outside.row(gradient);
+    json[key] = outside.row(gradient);
   }
   return json;
 }
@@ -96,41 +77,25 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
             {"hours", loaded.operation.duration / hour},
             {"cycles", loaded.operation.revolutions},
             {"peak_contact_stress_MPa", loaded.summary.peak_contact_stress},
-            {"peak_root_stress_MPa", loaded.summary.peak_root_stress},
-            {"loss_factor", of.loss_factor},
-            {"loss_factor_error", of.errors.loss_factor},
-            {"friction", of.friction},
-            {"power_W", of.power},
-            {"loss_power_W", of.loss_power},
-            {"loss_power_W_error", of.errors.loss_power},
-            {"film_friction", of.film_friction},
-            {"bulk_temperature_degC", of.bulk_temperature},
-            {"specific_film_thickness", of.film},
-            {"specific_film_thickness_error", of.errors.film},
-            {"micropitting_safety", of.micropitting_safety},
-            {"micropitting_safety_error", of.errors.micropitting_safety},
-            {"flash_temperature_K", of.flash_temperature},
-            {"flash_temperature_K_error", of.errors.flash_temperature},
-            {"contact_temperature_degC", of.contact_temperature},
-            {"contact_temperature_degC_error", of.errors.contact_temperature},
-            {"hottest_z_mm", of.hottest_z},
-            {"hottest_pinion_radius_mm", of.hottest_pinion_radius},
-            {"scuffing_safety", of.scuffing_safety},
-            {"scuffing_safety_error", of.errors.scuffing_safety},
-            {"iso6336",
-             {{"K_from", of.K_from_contact ? "loaded contact" : "ISO 6336-1, method C"},
-              {"K_A", loaded.operation.application_factor},
-              {"K_v", loaded.operation.dynamic_factor},
-              {"K_H", of.K_H},
-              {"K_F", of.K_F},
-              {"Z_H", of.iso.Z_H},
-              {"Z_E", of.iso.Z_E},
-              {"Z_eps", of.iso.Z_eps},
-              {"Z_beta", of.iso.Z_beta},
-              {"Y_beta", of.iso.Y_beta},
-              {"sigma_H0_MPa", of.iso.contact}}},
-            {"pinion", gear_case_json(of, Member::Pinion)},
-            {"wheel", gear_case_json(of, Member::Wheel)}};
+            {"peak_root_stress_MPa", loaded.summary.peak_root_stress}};
+  for (const LifeQuantity& quantity : life_quantities()) {
+    if (quantity.of_pair == nullptr) continue;
+    const std::string key(quantity.key);
+    json[key] = of.*quantity.of_pair;
+    if (quantity.error != nullptr) json[key + "_error"] = of.errors.*quantity.error;
+  }
+  json["iso6336"] = {{"K_from", of.K_from_contact ? "loaded contact" : "ISO 6336-1, method C"},
+                     {"K_A", loaded.operation.application_factor},
+                     {"K_v", loaded.operation.dynamic_factor},
+                     {"K_H", of.K_H},
+                     {"K_F", of.K_F},
+                     {"Z_H", of.iso.Z_H},
+                     {"Z_E", of.iso.Z_E},
+                     {"Z_eps", of.iso.Z_eps},
+                     {"Z_beta", of.iso.Z_beta},
+                     {"Y_beta", of.iso.Y_beta},
+                     {"sigma_H0_MPa", of.iso.contact}};
+  for (const Member m : both_gears) json[name_of(m)] = gear_case_json(of, m);
   if (has_gradients(results) && loaded.cycle.usable()) json["gradients"] = gradients_of(results, of);
   return json;
 }

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "core/gear/both_gears.hpp"
+#include "studies/analysis/life_quantities.hpp"
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/known_to.hpp"
@@ -15,39 +16,22 @@ namespace flankwright::studies {
 
 namespace {
 
-constexpr std::array each_gear{Member::Pinion, Member::Wheel};
+/// The rows of life.csv: damage first, then what else each gear has, then what the pair has.
+std::vector<const LifeQuantity*> column_order() {
+  std::vector<const LifeQuantity*> rows;
+  for (const LifeQuantity& quantity : life_quantities()) {
+    if (quantity.is_in_csv) rows.push_back(&quantity);
+  }
+  std::ranges::stable_sort(rows, {}, [](const LifeQuantity* row) { return row->of_spectrum != nullptr ? 0 : row->of_gears != nullptr ? 1 : 2; });
+  return rows;
+}
 
-std::string life_number(double value, const char* form) { return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value); }
-
-/// The larger of both gears; NaN where neither has one.
-double worst_damage(const PerGear<double>& of) { return std::fmax(of.pinion, of.wheel); }
-double least_safety(const PerGear<double>& of) { return std::fmin(of.pinion, of.wheel); }
-
-struct LifeColumn {
-  const char *heading, *unit, *form;
-  double (*value)(const CaseLife&, const LoadedResult&);
-  double CaseLifeErrors::*error{nullptr};  ///< null: none is estimated
-};
-
-constexpr std::array<LifeColumn, 12> life_columns{{
-    {"cycles", "pinion", "{:.3g}", [](const CaseLife&, const LoadedResult& l) { return l.operation.revolutions; }},
-    {"contact", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.contact_damage); }},
-    {"root", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.root_damage); }},
-    {"contact", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.contact_safety); }},
-    {"root", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.root_safety); }},
-    {"S_H", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_contact_safety); }},
-    {"S_F", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_root_safety); }},
-    {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }, &CaseLifeErrors::loss_factor},
-    {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }, &CaseLifeErrors::loss_power},
-    {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }, &CaseLifeErrors::film},
-    {"theta_B", "degC", "{:.1f}", [](const CaseLife& c, const LoadedResult&) { return c.contact_temperature; }, &CaseLifeErrors::contact_temperature},
-    {"S_B", "scuffing", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return c.scuffing_safety; }, &CaseLifeErrors::scuffing_safety},
-}};
+std::string life_number(double value, std::string_view form) { return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value); }
 
 std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
   std::string out;
   for (const auto& [name, points] : {std::pair{"contact damage", &spectrum.contact}, std::pair{"root damage", &spectrum.root}}) {
-    for (const Member m : each_gear) {
+    for (const Member m : both_gears) {
       const std::optional<DamagedPoint>& point = (*points)[m];
       if (!point) continue;
       const std::string where =
@@ -75,9 +59,8 @@ std::string grade_line(const LifeTable& life, Member m) {
 
 /// Which load factors S_H and S_F have, where they are not those of the loaded contact.
 std::string load_factor_line(const std::vector<CaseLife>& cases) {
-  const auto has_safety = [](const CaseLife& c) {
-    return !std::isnan(least_safety(c.iso_contact_safety)) || !std::isnan(least_safety(c.iso_root_safety));
-  };
+  const auto is_known = [](const PerGear<double>& of) { return !std::isnan(of.pinion) || !std::isnan(of.wheel); };
+  const auto has_safety = [&](const CaseLife& c) { return is_known(c.iso_contact_safety) || is_known(c.iso_root_safety); };
   const auto of_contact = std::ranges::count_if(cases, [&](const CaseLife& c) { return has_safety(c) && c.K_from_contact; });
   const auto rated = std::ranges::count_if(cases, has_safety);
   if (of_contact == rated) return {};
@@ -92,77 +75,52 @@ std::string load_factor_line(const std::vector<CaseLife>& cases) {
 std::string life_table(const StudyResults& results, std::size_t width) {
   if (!results.life) return {};
   const StudyLife& life = *results.life;
-  std::vector<const LifeColumn*> shown;
-  for (const LifeColumn& column : life_columns) {
-    const auto known = [&](const CaseLife& c) { return !std::isnan(column.value(c, results.loaded[c.loaded])); };
-    if (std::ranges::any_of(life.cases, known)) shown.push_back(&column);
-  }
+  const auto known = [&](const auto& value) { return std::ranges::any_of(life.cases, [&](const CaseLife& c) { return !std::isnan(value(c)); }); };
+  const auto cycles = [&](const CaseLife& c) { return results.loaded[c.loaded].operation.revolutions; };
+  const bool has_cycles = known(cycles);
+  std::vector<const LifeQuantity*> shown = column_order();
+  std::erase_if(shown,
+                [&](const LifeQuantity* row) { return row->column.heading.empty() || !known([&](const CaseLife& c) { return row->worst(c); }); });
+  const auto line = [&](const std::string& name, const std::string& torque, const std::string& cycles_cell, const auto& cell) {
+    std::string text = fmt::format("{:<{}}  {:>10}", name, width, torque);
+    if (has_cycles) text += fmt::format("  {:>9}", cycles_cell);
+    for (const LifeQuantity* row : shown) text += fmt::format("  {:>9}", cell(*row));
+    return text + "\n";
+  };
   // A long spectrum in many scenes is read in life.csv.
   constexpr std::size_t most_cases = 60;
-  std::string out = fmt::format("\n{:<{}}  {:>10}", "life", width, "torque"), units = fmt::format("{:<{}}  {:>10}", "", width, "N·m");
-  for (const LifeColumn* column : shown) {
-    out += fmt::format("  {:>9}", column->heading);
-    units += fmt::format("  {:>9}", column->unit);
-  }
-  out += "\n" + units + "\n";
+  std::string out =
+      "\n" + line("life", "torque", "cycles", [](const LifeQuantity& row) { return row.column.heading; }) +
+      line("", "N·m", "pinion", [](const LifeQuantity& row) { return row.column.subheading.empty() ? row.unit() : row.column.subheading; });
   for (std::size_t c = 0; c < std::min(most_cases, life.cases.size()); ++c) {
     const CaseLife& of = life.cases[c];
     const LoadedResult& loaded = results.loaded[of.loaded];
     const std::string design = loaded.design == "given" ? std::string() : fmt::format(" {}", loaded.design);
-    out += fmt::format("{:<{}}  {:>10.6g}", loaded.scene + design, width, in_Nm(loaded.torque));
-    for (const LifeColumn* column : shown) out += fmt::format("  {:>9}", life_number(column->value(of, loaded), column->form));
-    out += "\n";
+    out += line(loaded.scene + design, fmt::format("{:.6g}", in_Nm(loaded.torque)), life_number(cycles(of), "{:.3g}"),
+                [&](const LifeQuantity& row) { return life_number(row.worst(of), row.column.form); });
     if (std::isnan(of.errors.loss_factor)) continue;
-    out += fmt::format("{:<{}}  {:>10}", "  known to", width, "");
-    for (const LifeColumn* column : shown)
-      out += fmt::format("  {:>9}", column->error == nullptr ? std::string() : known_to(of.errors.*column->error));
-    out += "\n";
+    out += line("  known to", "", "", [&](const LifeQuantity& row) { return row.error == nullptr ? std::string() : known_to(of.errors.*row.error); });
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
   out += load_factor_line(life.cases);
-  for (const Member m : each_gear) out += grade_line(results.study.life, m);
+  for (const Member m : both_gears) out += grade_line(results.study.life, m);
   return out;
 }
 
 std::string life_csv(const StudyResults& results) {
-  std::string csv =
-      std::string(load_case_columns) +
-      ",cycles,gear,contact_damage,root_damage,contact_safety,root_safety,sigma_H_MPa,sigma_F_MPa,S_H,S_F,"
-      "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety,flash_temperature_K,contact_temperature_degC,scuffing_safety,"
-      "loss_factor_error,loss_power_W_error,specific_film_thickness_error,micropitting_safety_error,flash_temperature_K_error,contact_temperature_degC_error,"
-      "scuffing_safety_error,K_A,K_v\n";
+  const std::vector<const LifeQuantity*> columns = column_order();
+  std::string csv = std::string(load_case_columns) + ",cycles,gear";
+  for (const LifeQuantity* row : columns) csv += fmt::format(",{}", row->key);
+  for (const LifeQuantity* row : columns) csv += row->error != nullptr ? fmt::format(",{}_error", row->key) : std::string();
+  csv += ",K_A,K_v\n";
   for (const CaseLife& of : results.life->cases) {
     const LoadedResult& loaded = results.loaded[of.loaded];
-    for (const Member m : each_gear) {
+    for (const Member m : both_gears) {
       csv += fmt::format("{},{},{}", load_case_fields(loaded), csv_field(loaded.operation.revolutions), name_of(m));
-      for (const double value : {of.contact_damage[m],
-                                 of.root_damage[m],
-                                 of.contact_safety[m],
-                                 of.root_safety[m],
-                                 of.iso_contact[m],
-                                 of.iso_root[m],
-                                 of.iso_contact_safety[m],
-                                 of.iso_root_safety[m],
-                                 of.loss_factor,
-                                 of.loss_power,
-                                 of.film,
-                                 of.micropitting_safety,
-                                 of.flash_temperature,
-                                 of.contact_temperature,
-                                 of.scuffing_safety,
-                                 of.errors.loss_factor,
-                                 of.errors.loss_power,
-                                 of.errors.film,
-                                 of.errors.micropitting_safety,
-                                 of.errors.flash_temperature,
-                                 of.errors.contact_temperature,
-                                 of.errors.scuffing_safety,
-                                 loaded.operation.application_factor,
-                                 loaded.operation.dynamic_factor}) {
-        csv += fmt::format(",{}", csv_field(value));
-      }
-      csv += "\n";
+      for (const LifeQuantity* row : columns) csv += "," + csv_field(row->of(of, m));
+      for (const LifeQuantity* row : columns) csv += row->error != nullptr ? "," + csv_field(of.errors.*row->error) : std::string();
+      csv += fmt::format(",{},{}\n", csv_field(loaded.operation.application_factor), csv_field(loaded.operation.dynamic_factor));
     }
   }
   return csv;

@@ -2,12 +2,14 @@
 
 #include <cmath>
 
+#include "studies/analysis/life_quantities.hpp"
+
 namespace flankwright::studies {
 
 namespace {
 
 /// Of the spectrum that a load case belongs to.
-double damage_error(const StudyLife& life, std::size_t of_case, PerGear<std::optional<DamagedPoint>> SpectrumLife::*kind) {
+double damage_error(const StudyLife& life, std::size_t of_case, DamagedPoints SpectrumLife::*kind) {
   const auto spectrum =
       std::ranges::find_if(life.spectra, [&](const SpectrumLife& s) { return std::ranges::find(s.cases, of_case) != s.cases.end(); });
   if (spectrum == life.spectra.end()) return not_given;
@@ -26,28 +28,12 @@ double damage_error(const StudyLife& life, std::size_t of_case, PerGear<std::opt
 
 double life_error(const StudyLife& life, std::size_t loaded, Output output) {
   const CaseLife* of = life.find(loaded);
-  if (of == nullptr) return not_given;
-  const auto number = static_cast<std::size_t>(of - life.cases.data());
-  switch (output) {
-    case Output::ContactDamage:
-      return damage_error(life, number, &SpectrumLife::contact);
-    case Output::RootDamage:
-      return damage_error(life, number, &SpectrumLife::root);
-    case Output::LossFactor:
-      return of->errors.loss_factor;
-    case Output::SpecificFilmThickness:
-      return of->errors.film;
-    case Output::FlashTemperature:
-      return of->errors.flash_temperature;
-    case Output::ContactTemperature:
-      return of->errors.contact_temperature;
-    case Output::MicropittingUtilisation:  // 1/S
-      return of->errors.micropitting_safety / (of->micropitting_safety * of->micropitting_safety);
-    case Output::ScuffingUtilisation:
-      return of->errors.scuffing_safety / (of->scuffing_safety * of->scuffing_safety);
-    default:
-      return not_given;
-  }
+  const auto quantity = std::ranges::find(life_quantities(), output, &LifeQuantity::output);
+  if (of == nullptr || quantity == life_quantities().end()) return not_given;
+  if (quantity->of_spectrum != nullptr) return damage_error(life, static_cast<std::size_t>(of - life.cases.data()), quantity->of_spectrum);
+  if (quantity->error == nullptr) return not_given;
+  const double error = of->errors.*quantity->error, value = of->*quantity->of_pair;
+  return quantity->is_reciprocal ? error / (value * value) : error;
 }
 
 }  // namespace flankwright::studies

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "core/contact/unloaded/transmission_error.hpp"
+#include "core/gear/both_gears.hpp"
 #include "core/rating/shaft_misalignment.hpp"
 #include "studies/analysis/case_life.hpp"
 #include "studies/analysis/study_effects.hpp"
@@ -24,11 +25,6 @@ struct SampleFailure {
   std::string reason;
 };
 
-/// Outputs of unloaded contact, in arcsec.
-void add_harmonics(std::vector<double>& values, const std::vector<double>& amplitudes) {
-  for (const double amplitude : amplitudes) values.push_back(in_arcsec(amplitude));
-}
-
 /// Outputs of a sample beside the entries of cycle_quantities().
 struct IsoOutput {
   const char* name;
@@ -37,64 +33,18 @@ struct IsoOutput {
 constexpr std::array iso_outputs{IsoOutput{"iso6336_K_Hbeta", [](const IsoLoadFactors& iso) { return iso.lead; }},
                                  IsoOutput{"iso6336_K_Halpha", [](const IsoLoadFactors& iso) { return iso.profile; }}};
 
-/// Outputs of life, each where the nominal load case has it. Safeties are those of the more endangered gear by the local stress.
-struct LifeOutput {
-  const char* name;
-  const char* unit;
-  double (*value)(const CaseLife&);
-  bool smaller_is_worse{true};
-};
-double least(const PerGear<double>& safety) { return std::fmin(safety.pinion, safety.wheel); }
-constexpr std::array life_outputs{
-    LifeOutput{"loss_factor", "-", [](const CaseLife& c) { return c.loss_factor; }, false},
-    LifeOutput{"loss_power_W", "W", [](const CaseLife& c) { return c.loss_power; }, false},
-    LifeOutput{"specific_film_thickness", "-", [](const CaseLife& c) { return c.film; }},
-    LifeOutput{"micropitting_safety", "-", [](const CaseLife& c) { return c.micropitting_safety; }},
-    LifeOutput{"flash_temperature_K", "K", [](const CaseLife& c) { return c.flash_temperature; }, false},
-    LifeOutput{"contact_temperature_degC", "degC", [](const CaseLife& c) { return c.contact_temperature; }, false},
-    LifeOutput{"scuffing_safety", "-", [](const CaseLife& c) { return c.scuffing_safety; }},
-    LifeOutput{"contact_safety", "-", [](const CaseLife& c) { return least(c.contact_safety); }},
-    LifeOutput{"root_safety", "-", [](const CaseLife& c) { return least(c.root_safety); }},
-};
-
-/// Largest damage over both kinds of points of a gear, of a whole spectrum.
-struct DamageOutput {
-  const char* name;
-  bool (*of_spectrum)(const SpectrumLife&);  ///< whether the nominal sample has it
-  double (*value)(const MeshModel&, const LoadSpectrum&, const LifeModel&);
-};
-
-template <Member member>
-bool has_contact_damage(const SpectrumLife& spectrum) {
-  return spectrum.contact[member].has_value();
-}
-
-template <Member member>
-bool has_root_damage(const SpectrumLife& spectrum) {
-  return spectrum.root[member].has_value();
-}
-
-template <Member member>
-double largest_contact_damage(const MeshModel& model, const LoadSpectrum& spectrum, const LifeModel& life) {
+/// Largest damage of a gear over a whole spectrum.
+/// @param of_roots  else of its flanks
+double largest_damage(const MeshModel& model, const LoadSpectrum& spectrum, const LifeModel& life, bool of_roots, Member member) {
+  const FatigueStrength& strength = life.strength[member];
+  if (of_roots) return root_damage(model, spectrum, member, *strength.root, fillet_points(model, member)).maxCoeff();
   double largest = 0.0;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
-    const Eigen::VectorXd damage = contact_damage(model, spectrum, member, *life.strength[member].contact, i);
+    const Eigen::VectorXd damage = contact_damage(model, spectrum, member, *strength.contact, i);
     if (damage.size() > 0) largest = std::max(largest, damage.maxCoeff());
   }
   return largest;
 }
-
-template <Member member>
-double largest_root_damage(const MeshModel& model, const LoadSpectrum& spectrum, const LifeModel& life) {
-  return root_damage(model, spectrum, member, *life.strength[member].root, fillet_points(model, member)).maxCoeff();
-}
-
-constexpr std::array damage_outputs{
-    DamageOutput{"pinion_contact_damage", has_contact_damage<Member::Pinion>, largest_contact_damage<Member::Pinion>},
-    DamageOutput{"wheel_contact_damage", has_contact_damage<Member::Wheel>, largest_contact_damage<Member::Wheel>},
-    DamageOutput{"pinion_root_damage", has_root_damage<Member::Pinion>, largest_root_damage<Member::Pinion>},
-    DamageOutput{"wheel_root_damage", has_root_damage<Member::Wheel>, largest_root_damage<Member::Wheel>},
-};
 
 }  // namespace
 
@@ -120,13 +70,19 @@ SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal),
   for (const IsoOutput& iso : iso_outputs) outputs_.push_back({iso.name, "-"});
   if (life_ == nullptr) return;
   const CaseLife of_nominal = case_life(nominal.models.front(), *life_, nominal.loaded.front());
-  for (const LifeOutput& life : life_outputs) {
-    has_life_output_.push_back(!std::isnan(life.value(of_nominal)));
-    if (has_life_output_.back()) outputs_.push_back({life.name, life.unit, life.smaller_is_worse});
+  for (const LifeQuantity& quantity : life_quantities()) {
+    if (!quantity.is_sampled || std::isnan(quantity.worst(of_nominal))) continue;
+    life_outputs_.push_back(&quantity);
+    outputs_.push_back({std::string(quantity.key), std::string(quantity.unit()), quantity.smaller_is_worse});
   }
-  for (const DamageOutput& damage : damage_outputs) {
-    has_damage_.push_back(nominal.life && !nominal.life->spectra.empty() && damage.of_spectrum(nominal.life->spectra.front()));
-    if (has_damage_.back()) outputs_.push_back({damage.name, "-"});
+  if (!nominal.life || nominal.life->spectra.empty()) return;
+  for (const LifeQuantity& quantity : life_quantities()) {
+    if (quantity.of_spectrum == nullptr) continue;
+    for (const Member m : both_gears) {
+      if (!(nominal.life->spectra.front().*quantity.of_spectrum)[m]) continue;
+      damages_.push_back({quantity.of_spectrum == &SpectrumLife::root, m});
+      outputs_.push_back({std::string(name_of(m)) + "_" + std::string(quantity.key), "-"});
+    }
   }
 }
 
@@ -177,9 +133,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const SweptCondition& swept) 
   }
   LoadSpectrum spectrum;
   for (const SampleCase& load_case : cases) spectrum.push_back({&load_case.loaded.cycle, load_case.loaded.operation});
-  for (std::size_t k = 0; k < has_damage_.size(); ++k) {
-    if (has_damage_[k]) values.push_back(damage_outputs[k].value(*cases.front().model, spectrum, *life_));
-  }
+  for (const auto& [of_roots, member] : damages_) values.push_back(largest_damage(*cases.front().model, spectrum, *life_, of_roots, member));
   return values;
 }
 
@@ -222,9 +176,7 @@ std::vector<double> SampleAnalysis::case_outputs(SampleCase& of, const SweptCond
   for (const IsoOutput& output : iso_outputs) values.push_back(output.value(loaded.iso));
   if (life_ == nullptr) return values;
   const CaseLife life = case_life(model, *life_, loaded);
-  for (std::size_t k = 0; k < life_outputs.size(); ++k) {
-    if (has_life_output_[k]) values.push_back(life_outputs[k].value(life));
-  }
+  for (const LifeQuantity* quantity : life_outputs_) values.push_back(quantity->worst(life));
   return values;
 }
 
@@ -233,7 +185,7 @@ std::vector<double> SampleAnalysis::unloaded_outputs(const FlankCondition& condi
   const UnloadedMesh mesh = analyse_unloaded_mesh(nominal_.pair, scene, nominal_.study.cycle.positions);
   if (mesh.missing > 0) throw SampleFailure{"no tooth pair touches at " + std::to_string(mesh.missing) + " of the mesh positions"};
   std::vector<double> values{in_arcsec(mesh.peak_to_peak), in_um(mesh.peak_to_peak * nominal_.pair.wheel.base_radius)};
-  add_harmonics(values, mesh.harmonics);
+  for (const double amplitude : mesh.harmonics) values.push_back(in_arcsec(amplitude));
   return values;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fidelity/cycle_quantities.hpp"
+#include "studies/analysis/life_quantities.hpp"
 #include "studies/analysis/position_memory.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/study_file/study_schema.hpp"
@@ -39,6 +40,10 @@ class SampleAnalysis {
 
  private:
   struct SampleCase;
+  struct GearDamage {
+    bool of_roots;  ///< else of the flanks
+    Member member;
+  };
 
   /// Of each output the worst over all load cases; and of the spectrum its damage.
   std::vector<double> loaded_outputs(const SweptCondition& swept) const;
@@ -50,11 +55,11 @@ class SampleAnalysis {
   bool is_loaded() const { return !nominal_.loaded.empty(); }
 
   const StudyResults& nominal_;
-  mutable PositionMemory memory_;          ///< of the nominal placement between its positions
-  std::vector<CycleEntry> entries_;        ///< those of the outputs under load that are entries of cycle_quantities()
-  std::shared_ptr<const LifeModel> life_;  ///< null: the study does not ask for life
-  std::vector<bool> has_life_output_;      ///< of each output of life
-  std::vector<bool> has_damage_;           ///< of each output of damage
+  mutable PositionMemory memory_;                  ///< of the nominal placement between its positions
+  std::vector<CycleEntry> entries_;                ///< those of the outputs under load that are entries of cycle_quantities()
+  std::shared_ptr<const LifeModel> life_;          ///< null: the study does not ask for life
+  std::vector<const LifeQuantity*> life_outputs_;  ///< those of the outputs that the nominal load case has
+  std::vector<GearDamage> damages_;                ///< those of its spectrum
   std::vector<SweepOutput> outputs_;
 };
 
