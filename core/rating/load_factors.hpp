@@ -12,7 +12,7 @@ namespace flankwright {
 /// perfect: nothing else. lead: what changes along the face (lead crowning and slope, end relief, helix slope errors, crossing and
 /// intersecting axes, lead angle, mesh misalignment, of a measured grid the trace along the face at the middle of its profile). profile: what changes along the
 /// profile or from tooth to tooth (profile crowning and slope, tip and root relief, profile slope and pitch errors, pressure angle, of a measured grid
-/// the trace at mid face). Twist, a topography of polynomials, a predesigned parabola and a changed centre distance are neither and enter the whole condition only.
+/// the trace at mid face). Twist, shapes of a topography that vary both ways, a predesigned parabola and a changed centre distance are neither and enter the whole condition only.
 FlankCondition perfect_part(const FlankCondition& condition);
 FlankCondition lead_part(const FlankCondition& condition);
 FlankCondition profile_part(const FlankCondition& condition);

@@ -44,7 +44,7 @@ std::vector<UnvariedAmount> unvaried_amounts(const DesignTask& task, PerGear<Mod
   std::vector<UnvariedAmount> found;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     for (const ModificationDescriptor& p : modification_parameters) {
-      const bool is_amount = p.kind == ParameterKind::Amount && p.flank_class != ModificationClass::Topography;
+      const bool is_amount = p.kind == ParameterKind::Amount && p.flank_class != ModificationClass::Topography && !p.key.starts_with("topography.");
       if (!is_amount || is_half(p) || is_varied(task, member, p)) continue;
       const DesignVariable v{
           .path = std::string(name_of(member)) + ".modification." + std::string(p.key), .member = member, .parameter = p.parameter};

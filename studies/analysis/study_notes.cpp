@@ -86,6 +86,25 @@ void note_natural_twist(const Study& study, const GearPair& pair, Member m, std:
   notes.push_back(std::move(note));
 }
 
+/// A lead so steep that the tool, which touches beside its nominal point there, takes more than ContactShift knows: R f'^2/2.
+void note_steep_lead(const Study& study, const GearPair& pair, Member m, std::vector<std::string>& notes) {
+  const Modification& modification = study.modification[m];
+  if (!modification.process.has_natural_twist() || !has_lead_modification(modification)) return;
+  const DeviationFormula lead(only(modification, ModificationClass::Lead), {}, pair.flank_frame(m));
+  constexpr int sections = 400;
+  double steepest = 0.0;
+  for (int i = 0; i <= sections; ++i) {
+    const double z = (static_cast<double>(i) / sections - 0.5) * pair[m].data.face_width;
+    steepest = std::max(steepest, std::abs(lead.at(pair.flank_frame(m).pitch_radius, z).v));
+  }
+  constexpr double tool_curvature_radius = 400.0, least = 0.5 * units::um;  // mm: usual; least: what is worth saying
+  const double more = 0.5 * tool_curvature_radius * steepest * steepest;
+  if (more < least) return;
+  notes.push_back(fmt::format(
+      "the {}'s lead has a slope of {:.2g} um/mm: a grinding tool of usual size removes up to {:.2g} um more there, which is not computed",
+      name_of(m), steepest / units::um, more / units::um));
+}
+
 /// Keys of a study that act only beside others, which it does not give.
 void note_unused_keys(const Study& study, std::vector<std::string>& notes) {
   const auto note = [&](const std::string& key, bool used, const std::string& why) {
@@ -277,6 +296,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   if (study.task->add_notes != nullptr) study.task->add_notes(study, notes);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
+    note_steep_lead(study, pair, m, notes);
   }
   note_unused_keys(study, notes);
   note_unused_tables(study, notes);

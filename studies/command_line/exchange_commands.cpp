@@ -7,6 +7,8 @@
 #include <chrono>
 #include <filesystem>
 
+#include "core/gear/both_gears.hpp"
+#include "studies/analysis/study_effects.hpp"
 #include "studies/base/printable.hpp"
 #include "studies/command_line/standard_output.hpp"
 #include "studies/base/progress.hpp"
@@ -115,8 +117,10 @@ int export_command(const ExportCommand& options) {
     }
     if (options.grid) {
       const GearPair pair = make_gear_pair(study.pair);
-      write_export(folder / "grid-pinion.csv", grid_table(pair, Member::Pinion, study.modification.pinion, layout, study.title));
-      write_export(folder / "grid-wheel.csv", grid_table(pair, Member::Wheel, study.modification.wheel, layout, study.title));
+      const PerGear<Modification> analysed = analysed_modification(study, study_effects(study));
+      for (const Member m : both_gears) {
+        write_export(folder / (std::string("grid-") + name_of(m) + ".csv"), grid_table(pair, m, analysed[m], layout, study.title));
+      }
     }
   }
   if (options.vtk) export_vtk(json, results, folder / "vtk");

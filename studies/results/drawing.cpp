@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/flank/flank.hpp"
+#include "optimize/design/problem/design_task.hpp"
+#include "studies/analysis/study_effects.hpp"
 #include "studies/results/drawing_lines.hpp"
 #include "studies/results/drawing_sheet.hpp"
 
@@ -31,7 +33,7 @@ class TolerancedFlank {
       const auto moved_by = [&](double difference) {
         const ModificationDescriptor& d = *find_parameter(tolerance.key);
         Modification moved = modification;
-        const double design = d.get(modification), value = design + allowed_difference(d, design, difference);
+        const double design = d.get(modification), value = design + allowed_deviation(d, design, difference);
         d.set(moved, value);
         if (d.kind == ParameterKind::Extent && !(value > 0.0)) remove_relief(moved, d.key);
         return make_flank(pair, member, moved, {});
@@ -155,11 +157,12 @@ std::vector<FlankDrawing> drawings_of(const StudyResults& results) {
   const std::optional<int> tolerance_class = study.drawing_class ? study.drawing_class : study.tolerance_class;
   std::vector<FlankDrawing> drawings;
   if (!tolerance_class) return drawings;
-  const PerGear<Modification>& ground = results.designs.empty() ? study.modification : results.designs.back().modification;
+  const PerGear<Modification> ground = results.designs.empty() ? analysed_modification(study, results.effects) : results.designs.back().modification;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     const Modification& modification = ground[member];
-    drawings.push_back(make_drawing(results.pair, member, modification,
-                                    {*tolerance_class, given_tolerances(study, member, modification), ties_flanks(study, modification)}));
+    drawings.push_back(
+        make_drawing(results.pair, member, modification,
+                     {*tolerance_class, given_tolerances(study, member, modification), ties_flanks(study, study.modification[member])}));
   }
   return drawings;
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/flank/natural_twist.hpp"
+#include "optimize/design/problem/design_task.hpp"
 #include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {
@@ -60,7 +61,7 @@ std::optional<StatedTolerance> tolerance_of(const ModificationDescriptor& d, dou
   const std::string_view key = d.key;
   const auto given = std::ranges::find(terms.amounts, key, &AmountTolerance::key);
   if (given != terms.amounts.end()) {
-    return StatedTolerance{allowed_difference(d, design, given->low), allowed_difference(d, design, given->high), nullptr};
+    return StatedTolerance{allowed_deviation(d, design, given->low), allowed_deviation(d, design, given->high), nullptr};
   }
   struct OfClass {
     std::string_view key;
@@ -98,7 +99,7 @@ std::string value_in_words(const ModificationDescriptor& d, double value, const 
 /// What is said where the study's tolerance of a relief goes below 0; empty where it does not.
 std::string cut_tolerance(const ModificationDescriptor& d, double design, const DrawingTerms& terms) {
   const auto given = std::ranges::find(terms.amounts, d.key, &AmountTolerance::key);
-  if (given == terms.amounts.end() || allowed_difference(d, design, given->low) == given->low) return "";
+  if (given == terms.amounts.end() || allowed_deviation(d, design, given->low) == given->low) return "";
   const int places = d.kind == ParameterKind::Extent ? 2 : 1;
   return fmt::format("    the study's tolerance goes down to {:.{}f} {}; the least that can be ground is 0",
                      (design + given->low) * outside_factor(d.kind), places, unit_in_words(d.kind));
@@ -210,11 +211,6 @@ std::string tolerance_line(const char* symbol, double tolerance, bool either_way
 }
 
 }  // namespace
-
-double allowed_difference(const ModificationDescriptor& d, double design, double difference) {
-  const bool is_of_relief = d.kind == ParameterKind::Extent || !d.extent.empty();
-  return is_of_relief && design >= 0.0 ? std::max(difference, -design) : difference;
-}
 
 std::vector<std::string> drawing_lines(const GearPair& pair, Member member, const Modification& modification, const FlankTolerances& t,
                                        const DrawingTerms& terms) {

@@ -9,10 +9,6 @@
 
 namespace flankwright::studies {
 
-/// A difference from the design that the drawing allows where the study's tolerance has `difference`. An amount, height or length of a relief does not fall below 0:
-/// a relief of less than nothing would add metal, and no tool grinds it.
-double allowed_difference(const ModificationDescriptor& d, double design, double difference);
-
 /// What is written on the drawing of a flank: the amounts of the flank as it is ground, with what its process brings, the tolerances of amounts where
 /// study or class give any and whether they were cut off at 0, diameters and roll lengths, the opposite flank where it is tied to this one, and the tolerances of the class.
 ///

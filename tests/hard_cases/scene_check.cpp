@@ -48,7 +48,9 @@ double largest_deviation(const GearPair& pair, Member member, const Modification
                    std::abs(m.dedendum_crowning) * extents * extents + std::abs(m.profile_slope) + std::abs(m.twist) + std::abs(m.tip_relief.amount) +
                    std::abs(m.root_relief.amount) + std::abs(m.end_relief.amount) + std::abs(m.triangular_tip_relief.amount) +
                    std::abs(m.triangular_root_relief.amount) + std::abs(e.helix_slope) + std::abs(e.profile_slope) + std::abs(e.twist);
-  for (const double coefficient : m.shapes) amounts += std::abs(coefficient);
+  for (const ModificationDescriptor& d : modification_parameters) {
+    if (d.key.starts_with("topography.")) amounts += std::abs(d.get(m));
+  }
   const double pitches = turned / (2.0 * units::pi / pair.data.pinion.teeth) + 2.0;
   return 8.0 * amounts + std::abs(e.pitch_step) * pitches + pair.wheel.base_radius * m.parabolic_te * turned * turned * 8.0;
 }

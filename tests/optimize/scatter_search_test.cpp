@@ -75,6 +75,31 @@ TEST_CASE("A deviation of the profile crowning keeps the difference of its halve
   CHECK(get(m, parameter_of("dedendum_crowning")) == tests::about(3.0 * units::um, round_off));
 }
 
+TEST_CASE("A relief of a drawn gear is never less than none, and no longer changes with the design there", "[optimize][design][scatter][gradient]") {
+  constexpr auto relief = parameter_of("tip_relief.amount");
+  DesignTask task = over_draws({Aggregate::Mean}, 12);
+  set(task.modification.pinion, parameter_of("tip_relief.height"), 2.0);
+  task.variables = {{.path = "relief", .member = Member::Pinion, .parameter = relief, .lower = 0.0, .upper = 20.0 * units::um}};
+  for (std::size_t i = 0; i < task.scenes.size(); ++i) {
+    task.scenes[i].deviations = {{Member::Pinion, relief, (static_cast<double>(i) - 6.0) * units::um}};
+  }
+  DesignProblem problem(task);
+  PerGear<Modification> design = task.modification;
+  set(design.pinion, relief, 3.5 * units::um);
+  const auto of_draw = [&](std::size_t i) { return get(task.scenes[i].with_design(design).modification.pinion, relief); };
+  constexpr double round_off = 1e-15;  // mm
+  CHECK(of_draw(0) == 0.0);
+  CHECK(of_draw(2) == 0.0);
+  CHECK(of_draw(3) == tests::about(0.5 * units::um, round_off));
+  DesignLog log(nullptr);
+  DirectProgram program(problem, log);
+  const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 3.5 / 20.0), step = Eigen::VectorXd::Constant(1, 1e-5);
+  const double gradient = program.evaluate(x, true).objective_gradient[0];
+  const double difference = (program.evaluate(x + step, false).objective - program.evaluate(x - step, false).objective) / (2.0 * step[0]);
+  constexpr double discretisation = 1e-3;  // of the differences
+  CHECK(gradient == Approx(difference).epsilon(discretisation));
+}
+
 TEST_CASE("Gradients of the statistics over draws are what central differences say", "[optimize][design][scatter][gradient]") {
   constexpr double step = 1e-5;
   constexpr double discretisation = 1e-3;  // of the gradient: contact points that come and go within a step, as in any mesh analysis of 8 positions

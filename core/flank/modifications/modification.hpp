@@ -27,7 +27,8 @@ namespace flankwright {
 using Modifications =
     ModificationList<modifications::LeadCrowning, modifications::LeadSlope, modifications::ProfileCrowning, modifications::ProfileSlope,
                      modifications::TipRelief, modifications::RootRelief, modifications::EndReliefs, modifications::TriangularTipRelief,
-                     modifications::TriangularRootRelief, modifications::Twist, modifications::ParabolicTe, modifications::TopographyShapes>;
+                     modifications::TriangularRootRelief, modifications::Twist, modifications::ParabolicTe, modifications::LeadShapes,
+                     modifications::ProfileShapes, modifications::TopographyShapes>;
 
 /// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
 /// transverse plane along the base tangent [ISO 21771; ISO 1328-1]. All amounts in mm, parabolic_te in 1/rad.

@@ -22,18 +22,20 @@ std::array<Polynomial, 5> legendre(double x) {
 
 }  // namespace
 
-TopographyShapes::Term::Term(const TopographyShapes& m, const FlankFrame& frame)
+template <ModificationClass Class>
+TopographyShapesOf<Class>::Term::Term(const TopographyShapesOf& m, const FlankFrame& frame)
     : any_(std::ranges::any_of(m.shapes, [](double c) { return c != 0.0; })),
       shapes_(m.shapes),
       middle_radius_(0.5 * (frame.tip_radius + frame.active_root_radius)),
       half_height_(0.5 * (frame.tip_radius - frame.active_root_radius)),
       half_face_(0.5 * frame.face_width) {}
 
-void TopographyShapes::Term::sum(double r, double z, Jet& d) const {
+template <ModificationClass Class>
+void TopographyShapesOf<Class>::Term::sum(double r, double z, Jet& d) const {
   const auto profile = legendre((r - middle_radius_) / half_height_), face = legendre(z / half_face_);
   for (std::size_t k = 0; k < shapes_.size(); ++k) {
-    const Polynomial& p = profile[static_cast<std::size_t>(topography_shapes[k].profile)];
-    const Polynomial& f = face[static_cast<std::size_t>(topography_shapes[k].face)];
+    const Polynomial& p = profile[static_cast<std::size_t>(list[k].profile)];
+    const Polynomial& f = face[static_cast<std::size_t>(list[k].face)];
     d.value += shapes_[k] * p.value * f.value;
     d.u += shapes_[k] * p.first * f.value / half_height_;
     d.v += shapes_[k] * p.value * f.first / half_face_;
@@ -42,5 +44,9 @@ void TopographyShapes::Term::sum(double r, double z, Jet& d) const {
     d.vv += shapes_[k] * p.value * f.second / (half_face_ * half_face_);
   }
 }
+
+template struct TopographyShapesOf<ModificationClass::Lead>;
+template struct TopographyShapesOf<ModificationClass::Profile>;
+template struct TopographyShapesOf<ModificationClass::Topography>;
 
 }  // namespace flankwright::modifications

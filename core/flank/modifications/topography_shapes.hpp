@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/base/jet.hpp"
@@ -40,27 +42,37 @@ inline constexpr std::array<TopographyShape, 11> topography_shapes{{
      "the same with P_2(profile) P_2(face)"},
 }};
 
-/// Sum of c_ij P_i((2 r - r_a - r_Nf)/(r_a - r_Nf)) P_j(2z/b) over topography_shapes.
-struct TopographyShapes {
-  std::array<double, topography_shapes.size()> shapes{};  ///< c of each shape [mm]
+/// A shape of the face alone is a lead modification, which a process may twist, and one of the profile alone a profile modification.
+constexpr ModificationClass class_of(const TopographyShape& shape) {
+  return shape.profile == 0 ? ModificationClass::Lead : shape.face == 0 ? ModificationClass::Profile : ModificationClass::Topography;
+}
 
-  static constexpr ModificationClass flank_class = ModificationClass::Topography;
+/// Sum of c_ij P_i((2 r - r_a - r_Nf)/(r_a - r_Nf)) P_j(2z/b) over the topography_shapes of one class.
+template <ModificationClass Class>
+struct TopographyShapesOf {
+  static constexpr ModificationClass flank_class = Class;
+  static constexpr auto list = [] {
+    constexpr auto is_own = [](const TopographyShape& shape) { return class_of(shape) == Class; };
+    std::array<TopographyShape, static_cast<std::size_t>(std::ranges::count_if(topography_shapes, is_own))> own;
+    std::ranges::copy_if(topography_shapes, own.begin(), is_own);
+    return own;
+  }();
+
+  std::array<double, list.size()> shapes{};  ///< c of each shape of the list [mm]
+
   static constexpr auto parameters() {
     return []<std::size_t... K>(std::index_sequence<K...>) {
-      return std::array{ParameterRow<TopographyShapes>{{.key = topography_shapes[K].key,
-                                                        .name = topography_shapes[K].name,
-                                                        .sense = topography_shapes[K].sense,
-                                                        .meaning = topography_shapes[K].meaning,
-                                                        .odd_along_face = topography_shapes[K].face % 2 == 1},
-                                                       [](const TopographyShapes& m) { return m.shapes[K]; },
-                                                       [](TopographyShapes& m, double value) { m.shapes[K] = value; }}...};
+      return std::array{ParameterRow<TopographyShapesOf>{
+          {.key = list[K].key, .name = list[K].name, .sense = list[K].sense, .meaning = list[K].meaning, .odd_along_face = list[K].face % 2 == 1},
+          [](const TopographyShapesOf& m) { return m.shapes[K]; },
+          [](TopographyShapesOf& m, double value) { m.shapes[K] = value; }}...};
     }
-    (std::make_index_sequence<topography_shapes.size()>());
+    (std::make_index_sequence<list.size()>());
   }
 
   class Term {
    public:
-    Term(const TopographyShapes& m, const FlankFrame& frame);
+    Term(const TopographyShapesOf& m, const FlankFrame& frame);
     void add(double r, double z, Jet& d) const {
       if (any_) sum(r, z, d);
     }
@@ -69,10 +81,14 @@ struct TopographyShapes {
     void sum(double r, double z, Jet& d) const;
 
     bool any_;
-    std::array<double, topography_shapes.size()> shapes_;
+    std::array<double, list.size()> shapes_;
     double middle_radius_, half_height_, half_face_;  ///< what xi and eta count from and in
   };
-  bool operator==(const TopographyShapes&) const = default;
+  bool operator==(const TopographyShapesOf&) const = default;
 };
+
+using LeadShapes = TopographyShapesOf<ModificationClass::Lead>;
+using ProfileShapes = TopographyShapesOf<ModificationClass::Profile>;
+using TopographyShapes = TopographyShapesOf<ModificationClass::Topography>;
 
 }  // namespace flankwright::modifications

@@ -343,6 +343,17 @@ std::vector<double> DesignProblem::scene_weights() const {
   return weights;
 }
 
+Eigen::VectorXd DesignProblem::scaled(Eigen::VectorXd gradient, const DesignAnalysis& analysis, int scene) const {
+  for (const ModificationDeviation& deviation : task_.scenes[static_cast<std::size_t>(scene)].deviations) {
+    if (!deviation.is_cut(analysis.modification)) continue;
+    for (std::size_t p = 0; p < parameters_.size(); ++p) {
+      const auto& parameter = std::get<GearParameter>(parameters_[p]);
+      if (parameter.member == deviation.member && parameter.parameter == deviation.parameter) gradient[static_cast<Eigen::Index>(p)] = 0.0;
+    }
+  }
+  return scaled(gradient);
+}
+
 Eigen::VectorXd DesignProblem::scaled(const Eigen::VectorXd& gradient) const {
   const Eigen::Index n = variables();
   Eigen::VectorXd result = gradient.head(n);

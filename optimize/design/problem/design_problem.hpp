@@ -125,6 +125,8 @@ class DesignProblem {
   /// Gradient of a candidate of one scene with respect to the scaled variables, by the chain rule through the linking
   /// constraints.
   Eigen::VectorXd scaled(const Eigen::VectorXd& gradient) const;
+  /// The same, 0 by what the gears of the scene have none of, see ModificationDeviation::is_cut().
+  Eigen::VectorXd scaled(Eigen::VectorXd gradient, const DesignAnalysis& analysis, int scene) const;
 
   std::vector<double> scene_weights() const;
 

@@ -4,10 +4,19 @@
 
 namespace flankwright {
 
+double allowed_deviation(const ParameterDescription& parameter, double design, double deviation) {
+  const bool is_of_relief = parameter.kind == ParameterKind::Extent || !parameter.extent.empty();
+  return is_of_relief && design >= 0.0 ? std::max(deviation, -design) : deviation;
+}
+
+bool ModificationDeviation::is_cut(const PerGear<Modification>& design) const {
+  return allowed_deviation(describe(parameter), get(design[member], parameter), value) != value;
+}
+
 void ModificationDeviation::add_to(PerGear<Modification>& modification) const {
   Modification& m = modification[member];
   const ParameterDescription& row = describe(parameter);
-  if (row.half.empty()) return set(m, parameter, get(m, parameter) + value);
+  if (row.half.empty()) return set(m, parameter, get(m, parameter) + allowed_deviation(row, get(m, parameter), value));
   for (const std::string_view key : {row.half, row.other_half}) {
     const ModificationDescriptor& half = *find_parameter(key);
     half.set(m, half.get(m) + value);

@@ -119,14 +119,20 @@ struct ScalarisedObjective {
   double range{1.0};   ///< outside unit, > 0
 };
 
+/// A deviation as far as it can be ground: amounts and extents of a relief do not fall below 0.
+/// @param design, deviation  of the parameter [mm or as it is kept]
+double allowed_deviation(const ParameterDescription& parameter, double design, double deviation);
+
 /// By how much a gear as it is made differs from the design in one parameter.
 struct ModificationDeviation {
   Member member{Member::Pinion};
   ModificationParameter parameter{};
   double value{0.0};  ///< added to the design's [mm; parabolic_te 1/rad]
 
-  /// Adds it; a profile crowning is added to both halves, whether or not they are alike.
+  /// Adds it, as far as allowed_deviation() has it; a profile crowning is added to both halves, whether or not they are alike.
   void add_to(PerGear<Modification>& modification) const;
+  /// Whether a gear of this design has less of it than the whole, so that what it has there does not change with the design.
+  bool is_cut(const PerGear<Modification>& design) const;
 };
 
 /// One working condition at one torque. Modifications inside `condition` are replaced by the design's, and what the gears differ from it by is added.

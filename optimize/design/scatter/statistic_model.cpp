@@ -36,7 +36,8 @@ std::vector<PeakCandidate> candidates_of(const ObjectiveTerm& term, const Loaded
   return candidates;
 }
 
-LinearDraw::Peak peak_of(const ObjectiveTerm& term, const LoadedScene& scene, const DesignProblem& problem, double growth) {
+LinearDraw::Peak peak_of(const ObjectiveTerm& term, const DesignProblem& problem, const DesignAnalysis& analysis, int s, double growth) {
+  const LoadedScene scene = problem.scene(analysis, s);
   const std::vector<PeakCandidate> candidates = candidates_of(term, scene);
   const auto rows = static_cast<Eigen::Index>(candidates.size());
   LinearDraw::Peak peak{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, problem.variables())};
@@ -46,7 +47,7 @@ LinearDraw::Peak peak_of(const ObjectiveTerm& term, const LoadedScene& scene, co
     peak.values[j] = root;
     peak.slopes.row(j).setZero();
     if (value.value > 0.0 && value.gradient.size() > 0) {
-      peak.slopes.row(j) = root / (growth * value.value) * problem.scaled(value.gradient).transpose();
+      peak.slopes.row(j) = root / (growth * value.value) * problem.scaled(value.gradient, analysis, s).transpose();
     }
   }
   return peak;
@@ -67,9 +68,8 @@ StatisticModel::StatisticModel(const DesignProblem& problem, Objective objective
 LinearDraw StatisticModel::linear(const DesignProblem& problem, const DesignAnalysis& analysis, int draw, const Eigen::VectorXd& x) const {
   LinearDraw linear{x, {}};
   for (const int s : scenes(draw)) {
-    const LoadedScene scene = problem.scene(analysis, s);
     LinearDraw::LoadCase load_case{problem.task().scenes[static_cast<std::size_t>(s)].weight, {}};
-    for (const ObjectiveTerm& term : objective_.terms) load_case.terms.push_back(peak_of(term, scene, problem, growth_));
+    for (const ObjectiveTerm& term : objective_.terms) load_case.terms.push_back(peak_of(term, problem, analysis, s, growth_));
     linear.load_cases.push_back(std::move(load_case));
   }
   return linear;

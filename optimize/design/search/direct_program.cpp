@@ -24,7 +24,7 @@ int DirectProgram::constraints() const {
 Eigen::VectorXd DirectProgram::leading_gradient(const ObjectiveTerm& term, const DesignAnalysis& analysis, int scene) const {
   const LoadedScene there = problem_.scene(analysis, scene);
   const PeakCandidate leader = leading_candidates(term, there, 0.0, 1).front();
-  return problem_.scaled(candidate_value(term, leader, there).gradient);
+  return problem_.scaled(candidate_value(term, leader, there).gradient, analysis, scene);
 }
 
 Eigen::VectorXd DirectProgram::aggregate_gradient(const Objective& objective, const DesignAnalysis& analysis) const {

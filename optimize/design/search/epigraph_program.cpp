@@ -229,7 +229,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       const Slope least = block.bound_for(value.value, row.index);
       values.constraints[at] = sign * (least.value - y[u]);
       by_output = sign * least.by;
-      jacobian.head(n) = by_output * problem_.scaled(value.gradient);
+      jacobian.head(n) = by_output * problem_.scaled(value.gradient, analysis, row.scene);
       jacobian[u] = -sign;
       return;
     }
@@ -238,7 +238,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       const SmoothValue value = candidate_value(bound.output, row.candidate, problem_.scene(analysis, row.scene));
       values.constraints[at] = bound.excess(value.value);
       by_output = (bound.is_least() ? -1.0 : 1.0) / std::abs(bound.limit());
-      jacobian.head(n) = by_output * problem_.scaled(value.gradient);
+      jacobian.head(n) = by_output * problem_.scaled(value.gradient, analysis, row.scene);
       return;
     }
     case Kind::ObjectiveBound:

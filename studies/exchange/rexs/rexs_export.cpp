@@ -11,6 +11,7 @@
 #include "core/flank/flank.hpp"
 #include "core/gear/both_gears.hpp"
 #include "core/flank/natural_twist.hpp"
+#include "studies/analysis/study_effects.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "studies/exchange/rexs/study_text.hpp"
 
@@ -23,7 +24,11 @@ constexpr int topography_points = 25;  ///< along the profile and along the face
 
 class Export {
  public:
-  Export(const Study& study, const RexsExportOptions& options) : study_(study), pair_(make_gear_pair(study.pair)), version_(options.version) {
+  Export(const Study& study, const RexsExportOptions& options)
+      : study_(study),
+        pair_(make_gear_pair(study.pair)),
+        modification_(analysed_modification(study, study_effects(study))),
+        version_(options.version) {
     if (std::ranges::find(versions, version_) == versions.end()) {
       throw InvalidInput("version of REXS", version_, fmt::format("{}", fmt::join(versions, ", ")));
     }
@@ -81,7 +86,7 @@ class Export {
     result_.model.relations.push_back({.id = id, .type = type, .order = order, .refs = std::move(refs)});
   }
 
-  const Modification& modification(Member m) const { return study_.modification[m]; }
+  const Modification& modification(Member m) const { return modification_[m]; }
   const GivenGrid& grid(Member m) const { return study_.grid[m]; }
 
   int add_gear(Member m) {
@@ -158,6 +163,7 @@ class Export {
   void add_modifications(Member m) {
     Modification rest = modification(m);
     rest.topography = rest.opposite_topography = nullptr;
+    rest.process = {};  // its twist is that of all lead modifications, see add_topography()
     for_each_modification(modification(m), [&]<class Part>(const Part& part) {
       if constexpr (requires { this->write(m, part); }) {
         if (removes_something(part)) this->write(m, part);
@@ -341,6 +347,7 @@ class Export {
 
   const Study& study_;
   GearPair pair_;
+  PerGear<Modification> modification_;  ///< with the process that was analysed
   std::string version_;
   ExportedStage result_;
   int flank_{0}, pinion_data_{0};

@@ -64,13 +64,19 @@ std::vector<FlankCondition> optimise_conditions(const Study& study) {
   return all;
 }
 
-/// A quantile, or the mean beyond one, of fewer draws than one in which a single one lies beyond it.
+/// A quantile, or the mean beyond one, of fewer draws than one in which a single one lies beyond it; a standard deviation that is known to 10 % or worse.
 void note_few_draws(const Study& study, std::vector<std::string>& notes) {
   const ScatterTable& scatter = study.table<OptimiseTable>().scatter;
+  if (!scatter.asked()) return;
+  if (scatter.statistic == Aggregate::MeanPlusSigmas && scatter.statistic.sigmas > 0.0 && scatter.draws <= 51) {
+    const std::string known = scatter.draws > 1 ? fmt::format("known to {:.0f} % only", 100.0 / std::sqrt(2.0 * (scatter.draws - 1))) : "not known";
+    notes.push_back(fmt::format("the standard deviation over {} draws is {}", scatter.draws, known));
+  }
   const bool has_tail = scatter.statistic == Aggregate::Quantile || scatter.statistic == Aggregate::Cvar;
-  if (!scatter.asked() || !has_tail || scatter.draws * (1.0 - scatter.statistic.level) >= 1.0) return;
-  notes.push_back(fmt::format("the {:g} % quantile over {} draws is the largest of them: it takes {:.0f} for one to lie beyond it",
-                              100.0 * scatter.statistic.level, scatter.draws, std::ceil(1.0 / (1.0 - scatter.statistic.level) - 1e-9)));
+  if (!has_tail || scatter.draws * (1.0 - scatter.statistic.level) >= 1.0) return;
+  notes.push_back(fmt::format("the {}{:g} % quantile over {} draws is the largest of them: it takes {:.0f} for one to lie beyond it",
+                              scatter.statistic == Aggregate::Cvar ? "mean beyond the " : "", 100.0 * scatter.statistic.level, scatter.draws,
+                              std::ceil(1.0 / (1.0 - scatter.statistic.level) - 1e-9)));
 }
 
 void add_optimise_json(const StudyResults& results, Json& json) {

@@ -101,6 +101,28 @@ TEST_CASE("A flank that a fed tool leaves is the lead modification where the too
   CHECK(moved > 2 * units::um);         // it is no small matter
 }
 
+TEST_CASE("A shape of the face alone is a lead modification: that of order 2 is ground as the crowning that it is",
+          "[core][flank][grinding][closed-form]") {
+  // c P_2(2z/b) = 3/2 c (2z/b)^2 - c/2.
+  const Member member = GENERATE(Member::Pinion, Member::Wheel);
+  const GrindingKind kind = GENERATE(from_range(processes));
+  const GearPair pair = pair_of(Hand::Right);
+  constexpr double c = 8 * units::um;
+  Modification shape;
+  set(shape, parameter_of("topography.face_2"), c);
+  const Flank of_shape = make_flank(pair, member, with_process(shape, kind), {});
+  const Flank of_crowning = make_flank(pair, member, with_process(crowned(1.5 * c), kind), {});
+  constexpr double round_off = 1e-13;  // mm
+  for (double share = 0.0; share <= 1.0; share += 0.25) {
+    for (double z = -60.0; z <= 60.0; z += 15.0) {
+      const double rho = roll_at(pair[member], share);
+      CHECK(of_shape.deviation(rho, z, 0) == tests::about(of_crowning.deviation(rho, z, 0) - 0.5 * c, round_off));
+    }
+  }
+  CHECK(natural_twist(pair, member, with_process(shape, kind)) ==
+        Approx(natural_twist(pair, member, with_process(crowned(1.5 * c), kind))).epsilon(1e-10));
+}
+
 TEST_CASE("Crowning that is generated twists by 8 C tan(beta_b) g_alpha / b", "[core][flank][grinding][closed-form]") {
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const Hand hand = GENERATE(Hand::Right, Hand::Left);

@@ -61,7 +61,7 @@ TEST_CASE("On its other flanks a pair is itself turned over end for end, with al
   const GearPair gears = make_gear_pair(data);
   FlankCondition own = worked_condition();
   own.misalignment.axial_offset = 2.0;
-  own.modification.pinion.shapes[2] = 3 * units::um;  // odd along the face
+  set(own.modification.pinion, parameter_of("topography.face_3"), 3 * units::um);  // odd along the face
   own.modification.pinion.process.kind = GrindingKind::GeneratingGrinding;
   own.modification.wheel.process.kind = GrindingKind::FormGrinding;
   own.modification.wheel.lead_slope = 5 * units::um;

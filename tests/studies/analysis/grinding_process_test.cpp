@@ -77,6 +77,16 @@ TEST_CASE("Without a process a note says how much grinding would twist the lead"
              Contains("pinion.twist_compensation is not used"));
 }
 
+TEST_CASE("A lead too steep for the tool to follow is said, with what it takes more", "[studies][grinding]") {
+  const auto relief = [](const char* amount) {
+    return std::vector<Override>{generated.front(), {"pinion.modification.end_relief", std::string("{ amount = ") + amount + ", length = 4 }"}};
+  };
+  // 0.4 m (12 um / 4 mm)^2 / 2 and 0.4 m (4 um / 4 mm)^2 / 2, and the crowning's slope beside it.
+  CHECK_THAT(notes_of(small::analysis(), relief("12")), Contains("um/mm: a grinding tool of usual size removes up to 2"));
+  CHECK_THAT(notes_of(small::analysis(), relief("4")), !Contains("of usual size"));
+  CHECK_THAT(notes_of(small::analysis(), {relief("12").back()}), !Contains("of usual size"));
+}
+
 TEST_CASE("The natural twist is in loads, topography and effects, and off it is in none", "[studies][grinding]") {
   const Json none = results_of(small::analysis()), ground = results_of(small::analysis(), generated);
   const Study study = parse_study(small::analysis(), "study", generated);

@@ -97,14 +97,18 @@ TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of(limited("specific_film_thickness = { max = 0.5 }"), task).allowed, Contains("allowed is { min = ... }"));
   CHECK_THAT(problem_of(limited("edge_load = { min = 5 }"), task).allowed, Contains("allowed is { max = ... }"));
   // One of a hundred draws lies beyond their 99 % quantile, none of 99.
-  const auto notes_of = [&](const std::string& draws) {
-    const Study study = read("[optimise.scatter]\niso_1328_class = 6\nstatistic = { quantile = 0.99 }\ndraws = " + draws + "\n", task);
+  const auto notes_of = [&](const std::string& draws, const std::string& statistic = "{ quantile = 0.99 }") {
+    const Study study = read("[optimise.scatter]\niso_1328_class = 6\nstatistic = " + statistic + "\ndraws = " + draws + "\n", task);
     std::string all;
     for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) all += note;
     return all;
   };
   CHECK_THAT(notes_of("99"), Contains("the 99 % quantile over 99 draws is the largest of them"));
   CHECK_THAT(notes_of("101"), !Contains("quantile"));
+  CHECK_THAT(notes_of("99", "{ cvar = 0.99 }"), Contains("the mean beyond the 99 % quantile over 99 draws"));
+  // The standard deviation of n draws of a normal distribution is known to 1/sqrt(2 (n - 1)).
+  CHECK_THAT(notes_of("3", "{ mean_plus_sigma = 2 }"), Contains("the standard deviation over 3 draws is known to 50 % only"));
+  CHECK_THAT(notes_of("101", "{ mean_plus_sigma = 2 }"), !Contains("standard deviation"));
 }
 
 TEST_CASE("A range beyond the largest amount is refused, and a limit on the stress of sharp edges", "[studies][grinding][input]") {
