@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -98,46 +99,91 @@ std::vector<int> unfelt_variables(const Optimality& optimality, const Eigen::Vec
   return unfelt;
 }
 
+namespace {
+
+SolverOptions cobyla(std::size_t variables) {
+  SolverOptions options;
+  options.name = "nlopt:cobyla";
+  options.tolerance = step_tolerance;
+  options.max_evaluations = most_analyses_per_variable * static_cast<int>(variables);
+  return options;
+}
+
+/// Puts a design in the place of the one that was found, with what can be ground of it.
+void take_design(DesignProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options, const std::string& how, DesignResult& design) {
+  design.after = report_design(problem, problem.analyse(x, false));
+  DesignToGrind to_grind = design_to_grind(problem, x, options);
+  design.exact.reset();
+  if (to_grind.is_changed) {
+    design.exact = design.after;
+    design.after = report_design(problem, problem.analyse(to_grind.x, false));
+  }
+  design.choices = std::move(to_grind.choices);
+  design.evaluations += to_grind.choice_analyses;  // of copies of the problem
+  design.failures += to_grind.failures;
+  design.message += "; then between the positions " + how;
+}
+
+/// Counts what a search took.
+class Account {
+ public:
+  Account(DesignProblem& problem, TwoLevelDesign& found)
+      : problem_(problem), found_(found), analyses_(problem.analyses()), cycles_(problem.cycles()) {}
+  ~Account() {
+    found_.design.evaluations += problem_.analyses() - analyses_;
+    found_.fine.cycles += problem_.cycles() - cycles_;
+    found_.fine.seconds += clock_.seconds();
+    found_.design.seconds += clock_.seconds();
+  }
+  Account(const Account&) = delete;
+  Account& operator=(const Account&) = delete;
+
+ private:
+  Stopwatch clock_;
+  DesignProblem& problem_;
+  TwoLevelDesign& found_;
+  int analyses_;
+  std::int64_t cycles_;
+};
+
+/// The scaled design that was found, before choices and steps.
+Eigen::VectorXd scaled_best(const DesignProblem& problem, const DesignResult& design) {
+  return problem.scaled_design((design.exact ? *design.exact : design.after).variables).cwiseMax(0.0).cwiseMin(1.0);
+}
+
+}  // namespace
+
 void search_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
   const DesignTask& task = problem.task();
   if (!task.scalarisation.empty() || !task.later_objectives.empty()) return;
-  const Stopwatch clock;
-  const int analyses_before = problem.analyses();
-  const std::int64_t cycles_before = problem.cycles();
+  const Account account(problem, found);
   DesignResult& design = found.design;
-  const DesignReport& best = design.exact ? *design.exact : design.after;
-  const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
+  const Eigen::VectorXd x = scaled_best(problem, design);
   const std::vector<int> unfelt = unfelt_variables(design.optimality, x);
   if (unfelt.empty()) return;
   const double objective = ProgramBetweenPositions(problem, resolve, x, unfelt).evaluate(x(unfelt), false).objective;
   const std::vector<int> free = that_matter(problem, resolve, x, unfelt, objective);
-  if (!free.empty()) {
-    ProgramBetweenPositions program(problem, resolve, x, free);
-    SolverOptions options;
-    options.name = "nlopt:cobyla";
-    options.tolerance = step_tolerance;
-    options.max_evaluations = most_analyses_per_variable * static_cast<int>(free.size());
-    const SolverResult solved = solve(program, options);
-    if (solved.x.size() > 0 && solved.constraint_violation <= 0.0 && solved.objective < objective * (1.0 - least_gain)) {
-      const Eigen::VectorXd better = program.design(solved.x);
-      design.after = report_design(problem, problem.analyse(better, false));
-      DesignToGrind to_grind = design_to_grind(problem, better, options);
-      design.exact.reset();
-      if (to_grind.is_changed) {
-        design.exact = design.after;
-        design.after = report_design(problem, problem.analyse(to_grind.x, false));
-      }
-      design.choices = std::move(to_grind.choices);
-      design.evaluations += to_grind.choice_analyses;  // of copies of the problem
-      design.failures += to_grind.failures;
-      design.message += "; then between the positions along " + std::to_string(free.size()) + (free.size() == 1 ? " variable" : " variables") +
-                        " that no peak at a position felt";
-    }
-  }
-  design.evaluations += problem.analyses() - analyses_before;
-  found.fine.cycles += problem.cycles() - cycles_before;
-  found.fine.seconds += clock.seconds();
-  design.seconds += clock.seconds();
+  if (free.empty()) return;
+  ProgramBetweenPositions program(problem, resolve, x, free);
+  const SolverOptions options = cobyla(free.size());
+  const SolverResult solved = solve(program, options);
+  if (solved.x.size() == 0 || solved.constraint_violation > 0.0 || !(solved.objective < objective * (1.0 - least_gain))) return;
+  const std::string of_them = free.size() == 1 ? " variable" : " variables";
+  take_design(problem, program.design(solved.x), options, "along " + std::to_string(free.size()) + of_them + " that no peak at a position felt",
+              design);
+}
+
+void keep_limits_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
+  const Account account(problem, found);
+  const Eigen::VectorXd x = scaled_best(problem, found.design);
+  std::vector<int> all(static_cast<std::size_t>(problem.variables()));
+  std::iota(all.begin(), all.end(), 0);
+  ProgramBetweenPositions program(problem, resolve, x, all);
+  const double excess = program.evaluate(x, false).constraints[0];
+  const SolverOptions options = cobyla(all.size());
+  const SolverResult solved = solve(program, options);
+  if (solved.x.size() == 0 || !(solved.constraint_violation < excess)) return;
+  take_design(problem, program.design(solved.x), options, "to keep limits that only peaks there exceed", found.design);
 }
 
 }  // namespace flankwright

@@ -52,9 +52,13 @@ TwoLevelDesign OptimiseSearch::find(DesignProblem& problem, const DesignOptions&
   const std::vector<double> by_intervals = take_more_intervals(problem, exact, found);
   choose_what_to_grind(problem, options, found);
   keep_constraints_where_finer(problem, options, by_intervals, found);
-  if (seeks_extremes(results_.study))
-    search_between_positions(
-        problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, found);
+  if (!seeks_extremes(results_.study)) return found;
+  const DesignResolver resolve = [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); };
+  if (exceeds_between_positions(problem, found)) {
+    problem = DesignProblem(task_);
+    keep_limits_between_positions(problem, resolve, found);
+  }
+  search_between_positions(problem, resolve, found);
   return found;
 }
 
@@ -257,6 +261,11 @@ void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const 
   found = std::move(best->found);
   found.design.seconds = seconds;
   found.fine.seconds = fine_seconds;
+}
+
+bool OptimiseSearch::exceeds_between_positions(const DesignProblem& problem, const TwoLevelDesign& found) {
+  if (task_.constraints.empty() || found.design.status == SolverStatus::Infeasible || !is_usable(found.design.after)) return false;
+  return excess_of(shown_between_positions(problem, found.design.after)) > results_.study.fidelity.resolution_accuracy;
 }
 
 std::vector<double> OptimiseSearch::finer_excesses(const DesignReport& shown, const std::vector<double>& by_intervals) const {

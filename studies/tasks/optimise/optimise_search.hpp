@@ -59,6 +59,8 @@ class OptimiseSearch {
   /// all designs met, the one is kept that exceeds the constraints least as it is seen more finely. Nothing to do where no design keeps the constraints at all.
   /// @param by_intervals  of the design found, see take_more_intervals()
   void keep_constraints_where_finer(DesignProblem& problem, const DesignOptions& options, std::vector<double> by_intervals, TwoLevelDesign& found);
+  /// Whether it still exceeds a limit that it keeps at the positions: no limit there was tight enough, see keep_limits_between_positions().
+  bool exceeds_between_positions(const DesignProblem& problem, const TwoLevelDesign& found);
   /// Per constraint the excess of a design with what more intervals would add to it; what they would take from it is left out.
   /// @param shown         with what lies between the positions
   /// @param by_intervals  FinerLook::excess_changes
