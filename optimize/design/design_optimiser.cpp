@@ -124,12 +124,11 @@ class DesignRun {
     }
     const LocalRun nearest = run_local(by_excess, options);
     count(nearest);
-    const DesignAnalysis& analysis = problem_.analyse(nearest.x, false);
-    const double least = problem_.violation(analysis);
-    if (least < excess) {
+    const DesignAnalysis here = problem_.analyse(x_, false), there = problem_.analyse(nearest.x, false);
+    if (is_nearer(problem_, there, here)) {
       x_ = nearest.x;
-      excess = least;
-      append(result_.history, {{nearest.evaluations, problem_.objective(analysis), least}});
+      excess = problem_.violation(there);
+      append(result_.history, {{nearest.evaluations, problem_.objective(there), excess}});
     }
     if (!(excess > DesignLog::tolerance) && !is_spent()) {
       DesignProblem again = problem_;
@@ -141,7 +140,8 @@ class DesignRun {
     }
     if (nearest.status != SolverStatus::Converged && nearest.status != SolverStatus::Stalled) return;
     result_.status = SolverStatus::Infeasible;
-    result_.message = message_of_excess(excess);
+    const bool keeps_bounds = problem_.violation(problem_.analyse(x_, false).modification) <= DesignLog::tolerance;
+    result_.message = keeps_bounds ? message_of_excess(excess) : "no design that keeps the limits on modifications was found";
   }
 
   /// The problem of the last objective, at x_.

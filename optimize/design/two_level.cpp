@@ -100,7 +100,9 @@ void go_on_from_best(DesignProblem& problem, const DesignOptions& options, const
     problem.set_start(starts[i]);
     go_on(problem, options, further);
     const bool keeps = further.design.status != SolverStatus::Infeasible, kept = found.design.status != SolverStatus::Infeasible;
-    if (i == 0 || (keeps && !kept) || (keeps == kept && further.design.after.objective < found.design.after.objective)) {
+    const bool is_lower = keeps && kept && further.design.after.objective < found.design.after.objective;
+    const bool is_nearer_to_limits = !keeps && !kept && is_nearer(problem, further.design.after.analysis, found.design.after.analysis);
+    if (i == 0 || (keeps && !kept) || is_lower || is_nearer_to_limits) {
       found = std::move(further);
     } else {
       found.fine.cycles = further.fine.cycles;

@@ -10,7 +10,7 @@ namespace flankwright::studies {
 
 namespace {
 
-constexpr std::array parts{perfect_part, lead_part, profile_part, whole_condition};
+constexpr std::array rated_parts{perfect_part, lead_part, profile_part, whole_condition};
 
 /// Peaks of one condition.
 struct Sought {
@@ -43,11 +43,11 @@ void add_gradients(const RatedCase& load_case, bool has_shafts, const std::vecto
 std::vector<LoadRating> rate_cases(const std::vector<RatedCase>& cases, bool has_shafts, const PeakSearch& search,
                                    const std::vector<MeshParameter>& parameters) {
   std::vector<Sought> sought;
-  std::vector<std::array<std::size_t, parts.size()>> places(cases.size());  // of the parts of each load case, in `sought`
+  std::vector<std::array<std::size_t, rated_parts.size()>> places(cases.size());  // of the parts of each load case, in `sought`
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    for (std::size_t p = 0; p < parts.size(); ++p) {
-      const FlankCondition condition = condition_of(cases[i], parts[p]);
-      const bool deflect = has_shafts && shafts_deflect(parts[p]);
+    for (std::size_t p = 0; p < rated_parts.size(); ++p) {
+      const FlankCondition condition = condition_of(cases[i], rated_parts[p]);
+      const bool deflect = has_shafts && shafts_deflect(rated_parts[p]);
       const auto known = std::ranges::find_if(sought, [&](const Sought& s) {
         return s.of->pinion_torque == cases[i].pinion_torque && s.shafts_deflect == deflect && s.condition == condition;
       });

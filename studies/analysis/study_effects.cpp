@@ -6,7 +6,9 @@ namespace flankwright::studies {
 
 FlankCondition condition_of(const Study& study, const Scene& scene) {
   DesignScene of_design;
-  of_design.condition = {{}, scene.error, scene.misalignment, loads_other_flanks(study, scene)};
+  of_design.condition.error = scene.error;
+  of_design.condition.misalignment = scene.misalignment;
+  of_design.condition.other_flanks = loads_other_flanks(study, scene);
   of_design.deviations = scene.deviations;
   return of_design.with_design(study.modification);
 }

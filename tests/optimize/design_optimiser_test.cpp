@@ -102,6 +102,30 @@ TEST_CASE("The optimum respects a bound on the transmission error, and pays for 
   }
 }
 
+TEST_CASE("Where no design keeps the limits on outputs, those on modifications hold all the same", "[optimize][design]") {
+  DesignTask task = design_tasks::spur({20.0});
+  task.modification.pinion.lead_crowning = 30 * units::um;  // what the bound forbids lowers the stress
+  task.modification_constraints = {{.name = "crowning", .terms = {{Member::Pinion, parameter_of("lead_crowning"), 1.0}}, .maximum = 4 * units::um}};
+  DesignProblem free(task);
+  const auto stress = [&](double crowning, double slope) {
+    PerGear<Modification> design = task.modification;
+    design.pinion.lead_crowning = crowning * units::um;
+    design.pinion.lead_slope = slope * units::um;
+    return free.objective(free.analyse_design(design));
+  };
+  double least = INFINITY;
+  for (double crowning = 0.0; crowning <= 4.0; crowning += 1.0) {
+    for (double slope = -20.0; slope <= 20.0; slope += 0.5) least = std::min(least, stress(crowning, slope));
+  }
+  task.constraints = {{.output = design_tasks::term(Output::PeakContactStress), .maximum = 0.5 * least}};
+  const DesignResult found = optimise(task);
+  CHECK(found.status == SolverStatus::Infeasible);
+  CHECK(found.after.modification_values[0] <= 4 * units::um * (1.0 + 1e-6));
+  constexpr double of_grid = 0.01;  // discretisation
+  CHECK(found.after.objective <= least * (1.0 + of_grid));
+  CHECK(found.after.objective >= least * (1.0 - of_grid));
+}
+
 TEST_CASE("Where no design keeps the constraints the one that exceeds them by least is shown", "[optimize][design]") {
   DesignTask task = spur({10.0, -10.0});
   const DesignResult lowest_stress = optimise(task);

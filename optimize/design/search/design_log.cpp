@@ -1,6 +1,14 @@
 #include "optimize/design/search/design_log.hpp"
 
+#include <algorithm>
+
 namespace flankwright {
+
+bool is_nearer(const DesignProblem& problem, const DesignAnalysis& a, const DesignAnalysis& b) {
+  const auto broken = [&](const DesignAnalysis& of) { return std::max(0.0, problem.violation(of.modification) - DesignLog::tolerance); };
+  if (broken(a) != broken(b)) return broken(a) < broken(b);
+  return problem.violation(a) < problem.violation(b);
+}
 
 void DesignLog::record(const DesignProblem& problem, const Eigen::VectorXd& x, const DesignAnalysis& analysis) {
   if (!entries_.empty() && entries_.back().x == x) return;

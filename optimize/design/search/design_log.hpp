@@ -34,4 +34,8 @@ class DesignLog {
   int best_{-1};
 };
 
+/// Whether design a is nearer to keeping everything than b: first by the limits on modifications, which every load leaves as they are and a search can
+/// always keep where any design does, then by DesignProblem::violation().
+bool is_nearer(const DesignProblem& problem, const DesignAnalysis& a, const DesignAnalysis& b);
+
 }  // namespace flankwright

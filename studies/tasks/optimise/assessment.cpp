@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/search/design_log.hpp"
 #include "optimize/design/two_level.hpp"
 #include "optimize/design/scatter/draws.hpp"
 #include "studies/base/plain_names.hpp"
@@ -147,7 +148,8 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   const DesignReport& best = design.exact ? *design.exact : design.after;
   const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
-  if (usable && !best.analysis.cycles.empty() && is_infeasible && problem.has_upper_bounds()) {
+  const bool keeps_bounds = problem.violation(best.analysis.modification) <= DesignLog::tolerance;  // else they are what is in the way
+  if (usable && !best.analysis.cycles.empty() && is_infeasible && keeps_bounds && problem.has_upper_bounds()) {
     assessment.relaxation = find_relaxation(problem, best.analysis.modification, best.variables);
   }
   if (usable && !best.analysis.cycles.empty() && !is_infeasible) {

@@ -22,8 +22,15 @@ std::vector<std::string> violated_constraints(const DesignProblem& problem, cons
     const double value = design.modification_values[c];
     const double slack = DesignLog::tolerance * problem.modification_scale(constraint);
     if (value <= constraint.maximum + slack && value >= constraint.minimum - slack) continue;
-    unmet.push_back(
-        fmt::format("the constraint on {} is violated: {:.4g} {}", constraint.name, value * constraint.outside_factor(), constraint.unit()));
+    const bool is_above = value > constraint.maximum;
+    const double limit = is_above ? constraint.maximum : constraint.minimum, factor = constraint.outside_factor();
+    if (constraint.grinding == GrindingLimit::Slope) {
+      unmet.push_back(fmt::format("the constraint on {} is violated: for its extent the amount is {:.4g} {} too large", constraint.name,
+                                  (value - limit) * factor, constraint.unit()));
+      continue;
+    }
+    unmet.push_back(fmt::format("the constraint on {} {} {:.4g} is violated: {:.4g} {}", constraint.name, is_above ? "<=" : ">=", limit * factor,
+                                value * factor, constraint.unit()));
   }
   return unmet;
 }

@@ -158,7 +158,7 @@ TEST_CASE("A study on rigid gear bodies: stiffer, by a run of its own, and sized
   const StudyResults rigid = run_twins(
       twins, {{"fidelity.effects",
                R"(["bending", "adjacent_teeth", "free_ends", "hertzian_contact", "contact_coupling", "tip_corner", "extended_contact_region"])"}});
-  CHECK(rigid.structures.finite_elements->rigid_body[1]->from_cache);
+  CHECK(rigid.structures.finite_elements->rigid_body.wheel->from_cache);
   const double less = elastic.loaded[0].summary.te_mean - rigid.loaded[0].summary.te_mean;
   CHECK(less > 0.02 * elastic.loaded[0].summary.te_mean);
   const SizeInStudy* size = size_of(elastic.effect_sizes.exact, "gear_body_compliance");
