@@ -13,7 +13,7 @@ namespace flankwright::studies {
 
 namespace {
 
-constexpr int stations = 41;  // of a trace
+constexpr int stations = 161;  // of a trace; where a relief begins its corner is cut by at most one of the steps
 
 double part(int i) { return static_cast<double>(i) / (stations - 1); }
 

@@ -39,9 +39,9 @@ std::string text_at(double x, double y, const std::string& text, const char* anc
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" xml:space=\"preserve\">{}</text>\n", x, y, anchor, text);
 }
 
-/// The step of about four ticks over a range: 1, 2 or 5 of a decade.
+/// The step of about six ticks over a range: 1, 2 or 5 of a decade.
 double tick_step(double range) {
-  const double rough = range / 4.0, decade = std::pow(10.0, std::floor(std::log10(rough)));
+  const double rough = range / 6.0, decade = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double digit : {1.0, 2.0, 5.0}) {
     if (digit * decade >= rough) return digit * decade;
   }

@@ -41,7 +41,8 @@ const same_scene = (scene, load_case) =>
 
 /** The scenes of an optimisation, the governing one first: by weight at the optimum, then by objective. */
 function scenes_by_rank(optimise) {
-  const weights = list(record(optimise.governing).scenes).map(record);
+  const limits = list(record(optimise.relaxation).limits).map(record);
+  const weights = limits.length > 0 ? limits.map((limit) => ({ ...limit, name: limit.scene })) : list(record(optimise.governing).scenes).map(record);
   const scenes = list(optimise.scenes).map(record).map((scene) => {
     const found = weights.find((w) => w.name === scene.name && (!is_number(w.torque_Nm) || w.torque_Nm === scene.torque_Nm));
     return { ...scene, governs: found && is_number(found.weight) && Math.abs(found.weight) >= 0.005 ? found.weight : 0 };

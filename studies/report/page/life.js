@@ -153,7 +153,8 @@ function life_table(body, life) {
   const quantities = [["Revolutions", "", (of) => of.cycles, 3], ["K_A·K_v", "", overload_of, 3], ["Contact damage", "", most("contact_damage"), 3], ["Root damage", "", most("root_damage"), 3],
     ["Contact safety", "", least("contact_safety"), 3], ["Root safety", "", least("root_safety"), 3], ["S_H", "", least("S_H"), 3], ["S_F", "", least("S_F"), 3],
     ["Loss factor", "", known_to("loss_factor"), 3], ["Loss", "W", known_to("loss_power_W"), 3], ["Film λ_GF", "", known_to("specific_film_thickness"), 3],
-    ["Micropitting safety", "", known_to("micropitting_safety"), 3]].filter(([, , value_of]) => has_number(life, (of) => bare(value_of(of))));
+    ["Micropitting safety", "", known_to("micropitting_safety"), 3], ["Contact temperature", "°C", known_to("contact_temperature_degC"), 3],
+    ["Flash temperature", "K", known_to("flash_temperature_K"), 3], ["Scuffing safety", "", known_to("scuffing_safety"), 3]].filter(([, , value_of]) => has_number(life, (of) => bare(value_of(of))));
   const cases = list(life.cases).map(record), rest = cases.length - MOST_LIFE_ROWS;
   const load_factors_from = (of) => `${record(of.iso6336).K_from}`, are_mixed = new Set(cases.map(load_factors_from)).size > 1;
   table(body, { title: "Life in numbers",

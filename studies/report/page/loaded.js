@@ -163,7 +163,7 @@ function build_stiffness(results, body, selection) {
       curves,
       x: "phase [base pitches]",
       y: "stiffness [N/(mm µm)]",
-      y_range: readable_range(curves, 1e-3 * (summary_of(final_entry(selection.current)).mean_stiffness_N_per_mm_um ?? 0)),
+      y_range: readable_range(curves, 1e-3 * (summary_of(final_entry(selection.current)).mean_stiffness_N_per_mm_um ?? 0), true),
       read_x: (x) => `phase ${fmt(x)}`,
       read_y: (y) => `${fmt(y)} N/(mm µm)`,
       height: 250,

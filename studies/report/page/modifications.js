@@ -64,6 +64,9 @@ const amounts_count = (results) => (normal_share(results) === null ? "Amounts ar
   : "Amounts are material removed, positive into the tooth, along the base tangent in the transverse plane; normal to the flank, as the measurement grid of "
     + `flankwright export has them, they are cos β_b = ${fixed(normal_share(results), 4)} of that.`);
 
+/** Whether a grid of a topography has more than what is written as 0.0 µm. */
+const is_modified = (grid) => grid.rows.flat().some((value) => Math.abs(value) > 0.05);
+
 /** Every stored topography: [{gear, design, grid}]. */
 const topographies = (results) => list(results.modifications).map(record)
   .map((entry) => ({
@@ -87,7 +90,7 @@ function build_modifications(results, body) {
   for (const gear of unique(entries.map((entry) => entry.gear))) {
     const own = entries.filter((entry) => entry.gear === gear)
       .sort((a, b) => DESIGN_ORDER.indexOf(a.design) - DESIGN_ORDER.indexOf(b.design));
-    if (own.every((entry) => entry.grid.rows.flat().every((value) => value === 0))) {
+    if (!own.some((entry) => is_modified(entry.grid))) {
       body.append(el("p", { class: "remark" }, `The ${gear} flank is unmodified.`));
       continue;
     }
@@ -97,7 +100,7 @@ function build_modifications(results, body) {
       caption: `Material removed from the involute ${gear} flank, along the base tangent, with its contour lines; `
         + `face width to the right, tip at the top.${natural_twist_in_words(own)}`,
     }, (plot) => draw_topography(plot, gear, own));
-    const modified = own.filter((entry) => entry.grid.rows.flat().some((value) => value !== 0));
+    const modified = own.filter((entry) => is_modified(entry.grid));
     const state = { degrees: -30 };
     figure(grid, {
       title: `The ${gear} flank as a surface`,

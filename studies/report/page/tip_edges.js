@@ -31,17 +31,21 @@ function first_edge_contact(cases, design) {
     .reduce((a, b) => (a === null || b.summary.edge_contact.share_of_torque < a.summary.edge_contact.share_of_torque ? b : a), null);
 }
 
-/** "contact reaches the tip edge of the wheel at 62 % of 150 N·m; at all of it tip edges have up to 812 MPa and up to 3.1 % of the force" */
-function edge_contact_words(found, cases) {
+/** "contact reaches the tip edge of the wheel at 62 % of 150 N·m; under full load tip edges have up to 812 MPa and 3.1 % of the force" */
+function edge_contact_words(found, cases, design) {
   if (found === null) return "contact does not reach a tip edge";
   const { load_case, summary } = found, { gear, share_of_torque: share } = summary.edge_contact;
   const torque = `${fmt(load_case.torque)} N·m`, scene = load_case.label.split(", ").filter((part) => part !== torque).join(", ");
+  const largest = (key) => cases.map((other) => ({ other, value: summary_of(design ? other.designs[design] : final_entry(other))[key] }))
+    .filter(({ value }) => is_number(value)).reduce((a, b) => (b.value > a.value ? b : a), { other: load_case, value: summary[key] });
   const where = cases.length > 1 && scene !== "" ? ` (${scene})` : "";
   const from = share < 0.005 ? `at any load up to ${torque}` : `at ${fmt(100 * share, 2)} % of ${torque}`;
-  const carried = is_number(summary.tip_edge_share) ? ` and up to ${fmt(100 * summary.tip_edge_share, 2)} % of the force` : "";
+  const stress = largest("edge_stress_MPa"), part = largest("tip_edge_share");
+  const of_case = ({ other }) => (other === load_case ? "" : ` (${other.label})`);
+  const carried = is_number(part.value) ? ` and ${fmt(100 * part.value, 2)} % of the force${part.other === stress.other ? "" : of_case(part)}` : "";
   const reached = `contact reaches the tip edge of the ${gear} ${from}${where}`;
   if (!is_number(summary.edge_stress_MPa)) return `${reached}; the edge is sharp, its pressure has no bound and is not part of the contact stress`;
-  return `${reached}; at all of it tip edges have up to ${fmt(summary.edge_stress_MPa, 3)} MPa${carried}`;
+  return `${reached}; under full load tip edges have up to ${fmt(stress.value, 4)} MPa${of_case(stress)}${carried}`;
 }
 
 /** Before and after an optimisation, else as given; null where tips are sharp or nothing is loaded. */
@@ -49,6 +53,6 @@ function edge_contact_sentence(cases) {
   const after = first_edge_contact(cases, null);
   if (after === undefined) return null;
   const before = cases.some((load_case) => load_case.designs.before) ? first_edge_contact(cases, "before") : undefined;
-  if (before === undefined) return `${capital(edge_contact_words(after, cases))}.`;
-  return `Tip edges before: ${edge_contact_words(before, cases)}. After: ${edge_contact_words(after, cases)}.`;
+  if (before === undefined) return `${capital(edge_contact_words(after, cases, null))}.`;
+  return `Tip edges before: ${edge_contact_words(before, cases, "before")}. After: ${edge_contact_words(after, cases, null)}.`;
 }

@@ -217,7 +217,7 @@ std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task
 
 std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const DesignTask& task) {
   std::vector<std::string> words{fmt::format(
-      "No design within the bounds keeps the limits: the nearest one found exceeds them by {:.3g} %. With limits that much higher it would be feasible.",
+      "No design was found within the bounds that keeps the limits: the nearest one exceeds them by {:.3g} %. With limits that much higher it would be feasible.",
       100.0 * relaxation.excess)};
   constexpr double said = 0.005;  // less would be a weight of 0.00
   for (const Relaxation::Limit& limit : relaxation.limits) {

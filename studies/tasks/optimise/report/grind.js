@@ -1,7 +1,7 @@
 // Modifications to grind: before and after, rounded to the steps of the machine, and the resulting topography.
 
 /** The grinding step where the study gives none. */
-const DEFAULT_STEP = { um: 0.1, mm: 0.1 };
+const DEFAULT_STEP = { um: 0.1, mm: 0.1, 1: 0.01 };
 
 const given_value = (results, key) => list(results.given).map(record).find((given) => given.key === key)?.value;
 
@@ -108,7 +108,7 @@ function rounding_sentence(results) {
   }
   if (!is_number(all)) return own_steps ? "In the grinder's steps." : "Rounded to 0.1 µm and 0.1 mm.";
   const of_list = list(optimise.stages).length > 1 ? ` in ${words(optimise.objective_name)}` : "";
-  const cost = (percent) => `at a cost of ${fmt(Math.max(0, percent), 2)} %${of_list}`;
+  const cost = (percent) => (percent < -0.005 ? `with a gain of ${fmt(-percent, 2)} %${of_list}` : `at a cost of ${fmt(Math.max(0, percent), 2)} %${of_list}`);
   const steps = 100 * ((1 + all / 100) / (1 + choices / 100) - 1);
   if (!(Math.abs(choices) > 0)) return `${own_steps ? "In the grinder's steps" : "Without what cannot be ground"}, ${cost(all)}.`;
   return `Without what cannot be ground, ${cost(choices)}${own_steps ? `; in the grinder's steps, at ${fmt(Math.max(0, steps), 2)} % more` : ""}.`;
@@ -116,7 +116,7 @@ function rounding_sentence(results) {
 
 /** The flanks to grind, each as a small map with contour lines, on one scale. */
 function small_topographies(plot, results, height) {
-  const entries = topographies(results).filter((entry) => entry.design !== "before" && entry.grid.rows.flat().some((value) => value !== 0));
+  const entries = topographies(results).filter((entry) => entry.design !== "before" && is_modified(entry.grid));
   if (entries.length === 0) return plot.append(el("p", { class: "empty" }, "Both flanks stay unmodified."));
   const scale = removal_scale(entries);
   const row = el("div", { class: "maps" });

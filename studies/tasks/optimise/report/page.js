@@ -22,7 +22,7 @@ function variable_table(body, results) {
 
 function optimise_first(first, results, selection) {
   const optimise = record(results.optimise);
-  panel(first, { title: "What to grind", span: 5, href: "modifications" }, (plot) => grinding_table(plot, results));
+  panel(first, { title: optimise.status === "infeasible" ? "Nearest design: exceeds limits" : "What to grind", span: 5, href: "modifications" }, (plot) => grinding_table(plot, results));
   const front = list(record(optimise.pareto).points).length > 1;
   if (front) {
     panel(first, { title: "What a gain in one costs in the other", span: 7, href: "search" }, (plot) => draw_front(plot, record(optimise.pareto), [0, 1], 250));

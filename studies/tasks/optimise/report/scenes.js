@@ -53,7 +53,8 @@ function build_scenes(results, body) {
       title: `${capital(name)} of every scene`,
       wide: true,
       caption: `Change of the ${name} by the optimised flanks in each scene; `
-        + "a scene that moves to the right becomes worse in favour of the others.",
+        + (optimise.status === "infeasible" ? "the search was for the least excess over the limits, and the objective had no part in it."
+          : "a scene that moves to the right becomes worse in favour of the others."),
     }, (plot) => draw_scene_objectives(plot, scenes, unit));
     table(body, {
       title: `${capital(name)} by scene`,

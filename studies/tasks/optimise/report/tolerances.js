@@ -49,7 +49,7 @@ function drawn_facts(scatter) {
     ["Without scatter in the search", `${fmt(fresh_statistic(scatter, "without scatter") ?? record(scatter.without_scatter).value, 4)} ${unit}`],
     ["With scatter in the search", `${fmt(after ?? scatter.value, 4)} ${unit}`],
     is_number(predicted.value) ? ["Predicted", `${fmt(predicted.value, 4)}${between} ${unit}`] : null,
-    ...list(scatter.constraints).map(record).map((limit) => [capital(words(limit.name)), `${in_unit(fmt(limit.value, 3), pretty_unit(limit.unit))}, ${bound_words(limit)}`,
+    ...list(scatter.constraints).map(record).map((limit) => [`${capital(words(limit.name))}, drawn gears`, `${in_unit(fmt(limit.value, 3), pretty_unit(limit.unit))}, ${bound_words(limit)}`,
       exceeded.includes(limit) ? "bad" : "good"]),
   ];
 }
