@@ -78,6 +78,7 @@ TEST_CASE("A deviation of the profile crowning keeps the difference of its halve
 TEST_CASE("A relief of a drawn gear is never less than none, and no longer changes with the design there", "[optimize][design][scatter][gradient]") {
   constexpr auto relief = parameter_of("tip_relief.amount");
   DesignTask task = over_draws({Aggregate::Mean}, 12);
+  task.objective = {design_tasks::term(Output::TeHarmonic, 1)};
   set(task.modification.pinion, parameter_of("tip_relief.height"), 2.0);
   task.variables = {{.path = "relief", .member = Member::Pinion, .parameter = relief, .lower = 0.0, .upper = 20.0 * units::um}};
   for (std::size_t i = 0; i < task.scenes.size(); ++i) {
