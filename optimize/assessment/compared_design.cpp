@@ -22,6 +22,7 @@ ComparedDesign compared(const DesignProblem& problem, const NamedDesign& design)
     result.scene_measures = problem.scene_measures(problem.task().combined_objective(), analysis);
     result.objective = problem.objective(analysis);
     result.constraint_violation = problem.violation(analysis);
+    result.modification_violation = problem.violation(analysis.modification);
   } catch (const std::runtime_error& failure) {  // of scene_outputs: not every mesh position converged
     result = {.design = design, .scene_measures = {}, .intervals = result.intervals, .failure = failure.what()};
   }

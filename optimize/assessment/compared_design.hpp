@@ -17,11 +17,12 @@ struct NamedDesign {
 /// The result of a design over the scenes of a task.
 struct ComparedDesign {
   NamedDesign design;
-  double objective{not_given};             ///< outside units
-  double constraint_violation{not_given};  ///< DesignProblem::violation() [-]
-  std::vector<double> scene_measures;      ///< per scene, outside units
-  int intervals{0};                        ///< of a full contact line, which it was analysed with
-  std::string failure;                     ///< why it could not be analysed; empty: it was
+  double objective{not_given};               ///< outside units
+  double constraint_violation{not_given};    ///< DesignProblem::violation() [-]
+  double modification_violation{not_given};  ///< its part by limits on modifications [-]
+  std::vector<double> scene_measures;        ///< per scene, outside units
+  int intervals{0};                          ///< of a full contact line, which it was analysed with
+  std::string failure;                       ///< why it could not be analysed; empty: it was
 
   /// Analysed, and no bound exceeded by more than DesignLog::tolerance.
   bool feasible() const;

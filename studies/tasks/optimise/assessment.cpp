@@ -233,11 +233,15 @@ std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const
 }
 
 std::string no_rule_in_words(const std::vector<ComparedDesign>& rules) {
-  const ComparedDesign* nearest = nullptr;
-  for (const ComparedDesign& rule : rules) {
-    if (rule.failure.empty() && (nearest == nullptr || rule.constraint_violation < nearest->constraint_violation)) nearest = &rule;
+  if (std::ranges::none_of(rules, [](const ComparedDesign& rule) { return rule.failure.empty(); })) {
+    return fmt::format("None of {} designs by rules of thumb can be analysed.", rules.size());
   }
-  if (nearest == nullptr) return fmt::format("None of {} designs by rules of thumb can be analysed.", rules.size());
+  const ComparedDesign* nearest = nullptr;  // of those that keep the limits on modifications, as a search has it, see is_nearer()
+  for (const ComparedDesign& rule : rules) {
+    if (!rule.failure.empty() || rule.modification_violation > DesignLog::tolerance) continue;
+    if (nearest == nullptr || rule.constraint_violation < nearest->constraint_violation) nearest = &rule;
+  }
+  if (nearest == nullptr) return fmt::format("None of {} designs by rules of thumb keeps the limits on modifications.", rules.size());
   const double excess = 100.0 * nearest->constraint_violation;
   return fmt::format("None of {} designs by rules of thumb keeps the constraints. The nearest, {}, exceeds one of them by {:.{}f} %.", rules.size(),
                      nearest->design.name, excess, excess < 10.0 ? 1 : 0);
