@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/search/design_log.hpp"
+#include "optimize/design/search/optimality.hpp"
 #include "optimize/design/grinding/grindable_design.hpp"
 #include "optimize/solvers/solver.hpp"
 
@@ -183,7 +184,9 @@ void keep_limits_between_positions(DesignProblem& problem, const DesignResolver&
   const SolverOptions options = cobyla(all.size());
   const SolverResult solved = solve(program, options);
   if (solved.x.size() == 0 || !(solved.constraint_violation < excess)) return;
-  take_design(problem, program.design(solved.x), options, "to keep limits that only peaks there exceed", found.design);
+  const Eigen::VectorXd nearer = program.design(solved.x);
+  take_design(problem, nearer, options, "to keep limits that only peaks there exceed", found.design);
+  found.design.optimality = first_order_optimality(problem, nearer);
 }
 
 }  // namespace flankwright

@@ -71,6 +71,36 @@ TEST_CASE("Relief that no peak at a position feels is sought between the positio
   }
 }
 
+TEST_CASE("A limit that only a peak between the positions exceeds is kept by a search that sees it", "[optimize][design][between]") {
+  // The least transmission error at 16 positions has a tip edge that touches between them.
+  DesignTask task = relieved_spur();
+  task.objective = {design_tasks::term(Output::TePeakToPeak)};
+  const auto shown = [](DesignProblem& problem, const Eigen::VectorXd& x) {
+    DesignReport report;
+    report.analysis = problem.analyse(x, false);
+    report.constraint_values.resize(problem.task().constraints.size());
+    resolve_report(problem, resolver(problem)(report.analysis), report);
+    return report;
+  };
+  // What relief that is long enough has, with some to spare.
+  task.constraints = {{.output = design_tasks::term(Output::PeakContactStress), .maximum = INFINITY}};
+  DesignProblem free(task);
+  const DesignReport relieved = shown(free, Eigen::Vector2d(0.5, 0.5));
+  task.constraints.front().maximum = 1.1 * relieved.constraint_values[0];
+  DesignProblem problem(task);
+  TwoLevelDesign found = optimise_by_two_levels(problem, {});
+  REQUIRE(found.design.status != SolverStatus::Infeasible);
+  const auto excess = [&] {
+    return task.constraints[0].excess(shown(problem, problem.scaled_design(found.design.after.variables)).constraint_values[0]);
+  };
+  const double before = excess();
+  REQUIRE(before > 0.01);
+  keep_limits_between_positions(problem, resolver(problem), found);
+  CHECK(excess() <= 1e-6);
+  const DesignReport best = shown(problem, problem.scaled_design(found.design.after.variables));
+  CHECK(best.objective <= relieved.objective);  // a design that keeps the limit
+}
+
 TEST_CASE("A design whose peaks feel every variable is left as it is", "[optimize][design][between]") {
   DesignProblem problem(design_tasks::helical());
   TwoLevelDesign found = optimise_by_two_levels(problem, {});
