@@ -202,8 +202,9 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
   }
   condition.misalignment.axial_offset = 0.4;
   condition.misalignment.crossing = 1 * arcmin;
-  constexpr double kStep = 1e-6;            // mm
-  constexpr double kDiscretisation = 1e-8;  // third derivative by the parameter (touches move) times step^2, most of shapes of order 4; round-off/step
+  constexpr double kStep = 1e-6;  // mm
+  constexpr double kDiscretisation =
+      1e-8;  // third derivative by the parameter (touches move) times step^2, most of shapes of order 4; round-off/step
   for (const ModificationDescriptor& p : modification_parameters) {
     FlankCondition up = condition, down = condition;
     const auto side = [member](FlankCondition& c) -> Modification& { return c.modification[member]; };
