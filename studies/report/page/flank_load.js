@@ -4,7 +4,7 @@ const FLANK_QUANTITIES = [
   { unit: "MPa", title: "Contact stress on the pinion flank",
     values_of: (_, columns) => list(columns.contact_stress_MPa),
     caption: "Contact pressure, on rounded tip edges that of the strip on flank and rounding. Over the whole cycle each cell shows the largest value at its place, linear "
-      + "between neighbouring contact lines. Grey areas are never loaded." },
+      + "between neighbouring contact lines. Grey areas are never loaded. The scale is that of the flank off the tip edges, at the mesh positions; peaks between them are in the summary." },
   { unit: "N/mm", title: "Line load on the pinion flank",
     values_of: (_, columns) => list(columns.load_N_per_mm),
     caption: "Load per unit length of contact line over the whole field of contact. A ridge towards one face end shows "
@@ -37,7 +37,7 @@ function flank_clouds(load_case, quantity) {
   const all = designs.flatMap(({ points }) => points);
   const area = all.length ? area_of(all) : null;
   const top = quantity.is_gap ? 1.1 * maximum(designs.map(({ design }) => closed_gap(load_case.designs[design])))
-    : maximum(all.map((point) => point.value));
+    : maximum((all.some((point) => !point.tip_edge && point.value > 0) ? all.filter((point) => !point.tip_edge) : all).map((point) => point.value));
   const scale = { low: 0, high: is_number(top) && top > 0 ? top : 1 };
   const rank = quantity.is_gap ? { is_bare: (gap) => gap > scale.high, outranks: (a, b) => a < b }
     : { is_bare: (value) => value <= 0, outranks: (a, b) => a > b };
@@ -94,8 +94,11 @@ function draw_flank_load(plot, load_case, quantity, wanted, height = MAP_HEIGHT)
   }
   const { area, scale, rank } = clouds;
   const summary = (points) => {
-    const values = points.map((point) => point.value).filter((value) => !rank.is_bare(value));
-    return quantity.is_gap ? (wanted === null ? null : `largest shown ${fmt(maximum(values), 3)}`) : `peak ${fmt(maximum(values), 3)}`;
+    const largest = (some) => maximum(some.map((point) => point.value).filter((value) => !rank.is_bare(value)));
+    if (quantity.is_gap) return wanted === null ? null : `largest shown ${fmt(largest(points), 3)} ${quantity.unit}`;
+    const flank = points.filter((point) => !point.tip_edge), edges = points.filter((point) => point.tip_edge);
+    return [flank.length > 0 ? `flank ${fmt(largest(flank), 3)}` : null, edges.length > 0 ? `tip edges ${fmt(largest(edges), 3)}` : null].filter(Boolean).join(", ")
+      + ` ${quantity.unit} at most`;
   };
   const maps = clouds.designs.map(({ design, points, raster }) => {
     const phase = wanted === null ? null : nearest_phase(points, wanted);
@@ -110,7 +113,7 @@ function draw_flank_load(plot, load_case, quantity, wanted, height = MAP_HEIGHT)
     };
     const told = summary(here);
     return { name: DESIGN_LABEL[design].toLowerCase(), raster, read, opacity: phase === null ? 1 : 0.22,
-      title: `${DESIGN_LABEL[design]}${phase === null ? "" : `, phase ${fmt(phase, 3)}`}${told ? `, ${told} ${quantity.unit}` : ""}`,
+      title: `${DESIGN_LABEL[design]}${phase === null ? "" : `, phase ${fmt(phase, 3)}`}${told ? `, ${told}` : ""}`,
       edges: on_tip_edges(here),
       overlay: phase === null ? null : (pen, to_x, to_y) => draw_contact_lines(pen, here, clouds, to_x, to_y),
       marks: (pen, to_x, to_y) => draw_edge_marks(pen, on_tip_edges(here), to_x, to_y) };

@@ -40,10 +40,12 @@ class OptimiseRun {
     found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
     const auto between = [&](const DesignAnalysis& of) { return search_.resolved_cycles(problem, of, false); };
     if (!study.table<OptimiseTable>().pareto_objectives.empty()) {
+      const Stopwatch clock;
       problem.set_start({});  // the file's own values again
       const std::vector<Eigen::VectorXd> known{problem.scaled_design(found_.design.after.variables).cwiseMax(0.0).cwiseMin(1.0)};
       found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, known);
       if (seeks_extremes(study)) resolve_front(problem, between, known, *found_.front);
+      results_.steps.push_back({"front", "compromises of several objectives", clock.seconds()});
     }
     const DesignResult& design = found_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
