@@ -3,7 +3,7 @@
 const STEP_WORDS = {
   load_distribution: "loaded contact", edge_contact: "tip edges", proof_of_the_optimum: "assessment", effect_sizes: "sizes of effects", finite_elements: "finite elements",
   fit_of_pinion: "fit of the pinion", fit_of_wheel: "fit of the wheel", accuracy_ladder: "all fidelity levels", samples: "samples",
-  before_and_after: "before and after", front: "front of compromises",
+  before_and_after: "before and after", front: "front",
 };
 /** Steps whose result is kept: a second run of the same pair does not repeat them. */
 const KEPT_STEPS = ["finite_elements", "fit_of_pinion", "fit_of_wheel"];
