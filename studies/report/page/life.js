@@ -150,18 +150,25 @@ function life_table(body, life) {
     return K_A * K_v > 1 ? K_A * K_v : null;
   };
   const least = (key) => of_both(key, minimum), most = (key) => of_both(key, maximum);
-  const quantities = [["Revolutions", "", (of) => of.cycles, 3], ["K_A·K_v", "", overload_of, 3], ["Contact damage", "", most("contact_damage"), 3], ["Root damage", "", most("root_damage"), 3],
-    ["Contact safety", "", least("contact_safety"), 3], ["Root safety", "", least("root_safety"), 3], ["S_H", "", least("S_H"), 3], ["S_F", "", least("S_F"), 3],
-    ["Loss factor", "", known_to("loss_factor"), 3], ["Loss", "W", known_to("loss_power_W"), 3], ["Film λ_GF", "", known_to("specific_film_thickness"), 3],
+  const known = (quantities) => quantities.filter(([, , value_of]) => has_number(life, (of) => bare(value_of(of))));
+  const of_strength = known([["Revolutions", "", (of) => of.cycles, 3], ["K_A·K_v", "", overload_of, 3], ["Contact damage", "", most("contact_damage"), 3], ["Root damage", "", most("root_damage"), 3],
+    ["Contact safety", "", least("contact_safety"), 3], ["Root safety", "", least("root_safety"), 3], ["S_H", "", least("S_H"), 3], ["S_F", "", least("S_F"), 3]]);
+  const of_oil = known([["Loss factor", "", known_to("loss_factor"), 3], ["Loss", "W", known_to("loss_power_W"), 3], ["Film λ_GF", "", known_to("specific_film_thickness"), 3],
     ["Micropitting safety", "", known_to("micropitting_safety"), 3], ["Contact temperature", "°C", known_to("contact_temperature_degC"), 3],
-    ["Flash temperature", "K", known_to("flash_temperature_K"), 3], ["Scuffing safety", "", known_to("scuffing_safety"), 3]].filter(([, , value_of]) => has_number(life, (of) => bare(value_of(of))));
+    ["Flash temperature", "K", known_to("flash_temperature_K"), 3], ["Scuffing safety", "", known_to("scuffing_safety"), 3]]);
   const cases = list(life.cases).map(record), rest = cases.length - MOST_LIFE_ROWS;
+  const more = rest > 0 ? ` ${rest} load cases more are in life.csv.` : "";
   const load_factors_from = (of) => `${record(of.iso6336).K_from}`, are_mixed = new Set(cases.map(load_factors_from)).size > 1;
-  table(body, { title: "Life in numbers",
-    note: `The worse of both gears. S_H and S_F are those of ISO 6336-2 and -3. ± is the estimated discretisation error where it is available.${rest > 0 ? ` ${rest} load cases more are in life.csv.` : ""}`,
-    columns: [...case_columns, ...quantities.map(([label, unit, , digits]) => ({ label, unit, digits })), ...(are_mixed ? [{ label: "K_H of S_H, S_F" }] : [])],
-    rows: cases.slice(0, MOST_LIFE_ROWS).map((of) => [`${of.scene}`, of.torque_Nm ?? null, { text: DESIGN_LABEL[of.design] ?? `${of.design}`, class: "word" },
-      ...quantities.map(([, , value_of]) => value_of(of) ?? null), ...(are_mixed ? [{ text: load_factors_from(of), class: "word" }] : [])]) });
+  const numbers_table = (title, note, quantities, last = []) => {
+    if (quantities.length === 0) return;
+    table(body, { title, note: `${note}${more}`,
+      columns: [...case_columns, ...quantities.map(([label, unit, , digits]) => ({ label, unit, digits })), ...last.map(({ label }) => ({ label }))],
+      rows: cases.slice(0, MOST_LIFE_ROWS).map((of) => [`${of.scene}`, of.torque_Nm ?? null, { text: DESIGN_LABEL[of.design] ?? `${of.design}`, class: "word" },
+        ...quantities.map(([, , value_of]) => value_of(of) ?? null), ...last.map(({ cell }) => cell(of))]) });
+  };
+  numbers_table("Strength in numbers", "The worse of both gears. S_H and S_F are those of ISO 6336-2 and -3.", of_strength,
+    are_mixed ? [{ label: "K_H of S_H, S_F", cell: (of) => ({ text: load_factors_from(of), class: "word" }) }] : []);
+  numbers_table("Loss, film and temperatures in numbers", "± is the estimated discretisation error where it is available.", of_oil);
 }
 
 function build_life(results, body, selection) {
