@@ -175,6 +175,7 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
 }
 
 void keep_limits_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
+  if (!problem.task().scalarisation.empty() || !problem.task().later_objectives.empty()) return;
   const Account account(problem, found);
   const Eigen::VectorXd x = scaled_best(problem, found.design);
   std::vector<int> all(static_cast<std::size_t>(problem.variables()));

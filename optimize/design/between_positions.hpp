@@ -26,7 +26,8 @@ std::vector<int> unfelt_variables(const Optimality& optimality, const Eigen::Vec
 void search_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found);
 
 /// Continues a search over all variables whose design exceeds a limit between the positions and there only: a tip edge that touches for a moment is felt by
-/// none of them, so that no limit at positions is tight enough. The same method; `found` has the better design afterwards, or that of the least excess.
+/// none of them, so that no limit at positions is tight enough. The same method; `found` has the better design afterwards, or that of the least excess, with
+/// its own optimality. Does nothing for lists of objectives and scalarised ones.
 /// @param problem  with the limits as they are asked for
 void keep_limits_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found);
 
