@@ -211,7 +211,8 @@ std::optional<std::string> bound_to_own_flanks(const StudyReading& reading) {
   for (const Member m : members) {
     const std::string name = name_of(m);
     const std::string grid = name + ".modification.grid", opposite = grid + "_of_opposite_flank", of_teeth = name + ".error.grids";
-    if (reading.find(grid) != nullptr && reading.find(opposite) == nullptr) return grid + ", measured on one flank (" + opposite + " has the other one)";
+    if (reading.find(grid) != nullptr && reading.find(opposite) == nullptr)
+      return grid + ", measured on one flank (" + opposite + " has the other one)";
     if (reading.find(of_teeth) != nullptr) return of_teeth + ", measured on one flank";
   }
   return std::nullopt;
