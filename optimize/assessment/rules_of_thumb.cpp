@@ -30,16 +30,15 @@ Rule tip_relief(const std::string& name, const std::string& basis, double amount
 
 std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
   std::vector<Rule> rules{nothing()};
-  if (!(basis.deflection > 0.0)) return rules;
   const double overlap = (pair.transverse_contact_ratio - 1.0) * pair.transverse_base_pitch;  // path with two pairs, each end
   const auto over = [&](double length) { return std::pair{relief_height(pair.pinion, length), relief_height(pair.wheel, length)}; };
   const bool one_or_two_pairs = pair.transverse_contact_ratio > 1.0 && pair.transverse_contact_ratio < 2.0;
   if (one_or_two_pairs) {
     const auto [pinion, wheel] = over(0.5 * overlap);
-    rules.push_back(tip_relief("short tip relief", "Munro, Haddad 1991 eq. 4.13; mean deflection", basis.deflection, pinion, wheel));
+    rules.push_back(tip_relief("short tip relief", "Munro, Haddad 1991 eq. 4.13; mean deflection, ISO 6336-1", basis.deflection, pinion, wheel));
   }
-  rules.push_back(tip_relief("long tip relief", "Munro, Haddad 1991 section 4.3.3: from the pitch point; mean deflection", basis.deflection,
-                             pair.pinion.tip_form_radius - pair.pinion.working_pitch_radius,
+  rules.push_back(tip_relief("long tip relief", "Munro, Haddad 1991 section 4.3.3: from the pitch point; mean deflection, ISO 6336-1",
+                             basis.deflection, pair.pinion.tip_form_radius - pair.pinion.working_pitch_radius,
                              pair.wheel.tip_form_radius - pair.wheel.working_pitch_radius));
   if (one_or_two_pairs) {
     const auto [pinion, wheel] = over(overlap);
@@ -47,7 +46,7 @@ std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
                                basis.single_pair_deflection, pinion, wheel));
   }
   rules.push_back(
-      {"profile crowning", "Haddad 1991 section 4.3.3; mean deflection",
+      {"profile crowning", "Haddad 1991 section 4.3.3; mean deflection, ISO 6336-1",
        [amount = basis.deflection](PerGear<Modification>& modification) { set(modification.pinion, parameter_of("profile_crowning"), amount); }});
   return rules;
 }
@@ -76,24 +75,16 @@ std::string joined(const std::string& a, const std::string& b, const char* betwe
 RuleBasis rule_basis(const DesignProblem& problem) {
   const DesignTask& task = problem.task();
   RuleBasis basis{.torque = 0.0, .misalignment = 0.0};
-  int chosen = 0;
-  double least = INFINITY;
   for (const DesignScene& scene : task.scenes) basis.torque = std::max(basis.torque, scene.torque);
   for (int s = 0; s < problem.scenes(); ++s) {
-    const DesignScene& scene = task.scenes[static_cast<std::size_t>(s)];
-    FlankCondition condition = scene.condition;
+    FlankCondition condition = task.scenes[static_cast<std::size_t>(s)].condition;
     condition.modification.pinion = condition.modification.wheel = {};
-    const double misalignment = iso_deviations(problem.model(s).pair, condition).misalignment;
-    basis.misalignment = std::max(basis.misalignment, misalignment);
-    if (scene.torque == basis.torque && misalignment < least) {
-      least = misalignment;
-      chosen = s;
-    }
+    basis.misalignment = std::max(basis.misalignment, iso_deviations(problem.model(s).pair, condition).misalignment);
   }
-  const double specific_load = basis.torque / task.pair.pinion.base_radius / problem.model(chosen).face_width;
-  basis.single_pair_deflection = specific_load / problem.model(chosen).iso.c_prime * units::um;
-  const LoadedCycle cycle = problem.analyse_scene(chosen, {});
-  if (cycle.usable()) basis.deflection = specific_load / summarise(problem.model(chosen), cycle).mean_stiffness * units::um;
+  const MeshModel& model = problem.model(0);  // stiffness and face width are the same in every scene
+  const double specific_load = basis.torque / task.pair.pinion.base_radius / model.face_width;
+  basis.deflection = specific_load / model.iso.c_gamma * units::um;
+  basis.single_pair_deflection = specific_load / model.iso.c_prime * units::um;
   return basis;
 }
 

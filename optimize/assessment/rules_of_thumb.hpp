@@ -10,11 +10,12 @@ namespace flankwright {
 struct RuleBasis {
   double torque{not_given};                  ///< design torque: the largest of the scenes [N mm]
   double misalignment{not_given};            ///< largest F_beta_y over the scenes, of housing and errors, see IsoDeviations [mm]
-  double deflection{not_given};              ///< F_bt/(b c_m): c_m mean mesh stiffness of the unmodified pair, Haddad eq. 2.17b [mm]
+  double deflection{not_given};              ///< mean deflection of the teeth, F_bt/(b c_gamma): c_gamma of ISO 6336-1, method B [mm]
   double single_pair_deflection{not_given};  ///< F_bt/(b c'): c' of ISO 6336-1, method B [mm]
 };
 
-/// c_m is taken in the scene with the design torque, of several such the least misaligned. NaN deflection where it cannot be analysed.
+/// Both deflections are of teeth alone. Gear bodies and shafts give way at all positions alike, so a relief that makes up for them would be
+/// several times too large on a wide or a thin gear. Haddad takes c_m of his slices instead, which have no bodies either [eq. 2.17b].
 RuleBasis rule_basis(const DesignProblem& problem);
 
 /// Radial height below the tip at which a relief starts that is `length` long on the path of contact:

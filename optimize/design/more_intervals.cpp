@@ -56,15 +56,20 @@ double largest_excess(const DesignTask& task, const DesignReport& report) {
   return excess;
 }
 
-/// How far the load case that is worst in a report falls behind another where it is seen more finely, relative to the worst there [-]; 0 where the objective is no
-/// worst case.
+/// How far load cases that are worst in a report, to within `balance`, fall behind another where they are seen more finely, relative to the worst there [-]. The one
+/// that falls most counts: a search balances its worst load cases, and where one of them turns out smaller, the others can be traded for it. 0 where the objective is
+/// no worst case.
 /// @param scenes  of `seen`, as the report numbers them
 double lead_lost(const DesignTask& task, const DesignReport& report, const DesignReport& seen, const std::vector<int>& scenes) {
   if (task.over != Aggregate::Worst) return 0.0;
-  const auto worst = std::ranges::max_element(report.scene_measures) - report.scene_measures.begin();
-  const auto place = std::ranges::find(scenes, static_cast<int>(worst)) - scenes.begin();
-  const double largest = std::ranges::max(seen.scene_measures);
-  return largest > 0.0 ? 1.0 - seen.scene_measures[static_cast<std::size_t>(place)] / largest : 0.0;
+  constexpr double balance = 1e-3;  // two load cases are as bad as each other; a search that ends on a kink balances them to 1e-4 and less
+  const double worst = std::ranges::max(report.scene_measures), worst_seen = std::ranges::max(seen.scene_measures);
+  double lost = 0.0;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const bool is_worst = report.scene_measures[static_cast<std::size_t>(scenes[i])] >= worst - balance * std::abs(worst);
+    if (is_worst && worst_seen > 0.0) lost = std::max(lost, 1.0 - seen.scene_measures[i] / worst_seen);
+  }
+  return lost;
 }
 
 /// FinerLook::excess_changes.

@@ -16,8 +16,8 @@ inline constexpr double change_by_doubling = change_by_intervals / four_times_by
 
 /// A design with twice the intervals along its contact lines.
 struct FinerLook {
-  /// The intervals are too few for what the design was chosen by. The objective changes by more than change_by_doubling, or the load case of the worst objective falls
-  /// behind another by more than that, or a constraint that was kept is exceeded by more than half of it. Where no design keeps the constraints,
+  /// The intervals are too few for what the design was chosen by. The objective changes by more than change_by_doubling, or one of the load cases that are
+  /// worst together falls behind another by more than that, or a constraint that was kept is exceeded by more than half of it. Where no design keeps the constraints,
   /// one plus the largest excess takes the objective's place.
   bool needs_more{false};
   /// Per constraint, what four times the intervals add to OutputConstraint::excess: four_times_by_twice of what twice as many do [-]. It is 0 for a constraint that no

@@ -19,7 +19,7 @@ function comparison_caption(comparison) {
   const parts = [];
   if (is_number(basis.torque_Nm)) {
     parts.push(`The rules work with the largest torque of the scenes, ${fmt(basis.torque_Nm)} N·m, the largest misalignment, `
-      + `${fmt(basis.misalignment_um, 3)} µm, the mean deflection of the unmodified pair, ${fmt(basis.mean_deflection_um, 3)} µm, `
+      + `${fmt(basis.misalignment_um, 3)} µm, the mean deflection of the teeth after ISO 6336-1, ${fmt(basis.mean_deflection_um, 3)} µm, `
       + `and that of a single pair, ${fmt(basis.single_pair_deflection_um, 3)} µm.`);
   }
   for (const search of list(comparison.variants).map(record)) {
