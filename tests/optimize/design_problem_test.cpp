@@ -214,3 +214,30 @@ TEST_CASE("A look at twice the intervals says how a design fares with four times
     if (!look.needs_more) CHECK(std::abs(finer.objective / report.objective - 1.0) <= change_by_intervals + slack);
   }
 }
+
+TEST_CASE("Intervals are too few where one of two balanced load cases falls behind with twice as many", "[optimize][design]") {
+  // Relief up to the middle of the flank: aligned flanks touch over short lines, which four intervals overrate. Misaligned ones under less load do not.
+  DesignTask task = helical({0.0, 16.0}, 16);
+  task.objective = {term(Output::PeakContactStress)};
+  for (Modification* m : {&task.modification.pinion, &task.modification.wheel}) m->tip_relief = {0.040, 4.0, ReliefShape::Linear};
+  const auto report_at = [&](int intervals) {
+    task.resolution.quadrature = {QuadratureRule::Graded, intervals};
+    const DesignProblem problem(task);
+    return report_design(problem, problem.analyse_given());
+  };
+  constexpr int few = 4;
+  constexpr double hair = 1e-5;  // which of the two is the worst does not matter
+  for (const double ahead : {1.0 + hair, 1.0 - hair}) {
+    CAPTURE(ahead);
+    for (int turn = 0; turn < 30; ++turn) {  // stress grows with about the root of the torque
+      const std::vector<double> stress = report_at(few).scene_measures;
+      task.scenes[1].torque *= std::pow(ahead * stress[0] / stress[1], 2);
+    }
+    const DesignReport report = report_at(few), finer = report_at(2 * few);
+    REQUIRE(report.scene_measures[1] == Approx(ahead * report.scene_measures[0]).epsilon(0.1 * hair));
+    REQUIRE(std::abs(finer.objective / report.objective - 1.0) < 0.5 * change_by_doubling);        // else it is the objective that decides
+    REQUIRE(1.0 - finer.scene_measures[0] / finer.scene_measures[1] > 1.05 * change_by_doubling);  // else this task shows nothing
+    report_at(few);
+    CHECK(look_finer(DesignProblem(task), report, false).needs_more);
+  }
+}
