@@ -260,7 +260,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results, bool w
   return json;
 }
 
-/// How one flank differs from the involute by generation, modification and grid, as a map; nothing where it does not.
+/// How the working flank of a gear differs from the involute by generation, modification and grid, as a map; nothing where it does not.
 void add_topography(const GearPair& pair, Member member, const Modification& modification, const std::string& design, Json& maps) {
   const Gear& gear = pair[member];
   const Flank flank = make_flank(pair, member, modification, {});
@@ -282,6 +282,7 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
   }
   if (!modified) return;
   maps.push_back({{"gear", name_of(member)},
+                  {"flank", name_of(pair.data.working_flank)},
                   {"design", design},
                   {"process", to_string(modification.process.kind)},
                   {"natural_twist_um", in_um(natural_twist(pair, member, modification))},
@@ -291,10 +292,15 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
                   {"removal_um", std::move(removal_um)}});
 }
 
+/// Of the flanks that some load case works on.
 Json modifications_json(const StudyResults& results) {
   Json maps = Json::array();
+  const GearPair& own = results.pair;
+  const bool works_on_others = std::ranges::any_of(results.loaded, [](const LoadedResult& loaded) { return loaded.condition.other_flanks; });
   const auto add_both = [&](const PerGear<Modification>& modification, const std::string& design) {
-    for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(results.pair, m, modification[m], design, maps);
+    for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(own, m, modification[m], design, maps);
+    if (!works_on_others) return;
+    for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(own.on_other_flanks(), m, on_opposite_flank(modification[m]), design, maps);
   };
   for (const ShownDesign& design : results.designs) add_both(design.modification, design.name);
   if (results.designs.empty()) add_both(analysed_modification(results.study, results.effects), "given");

@@ -114,11 +114,11 @@ struct MeshFrame {
   double path;                            ///< T1 T2 [mm]
   double base_pitch;                      ///< transverse [mm]
   double centre_distance;                 ///< [mm]
-  std::array<double, 2> base, root, tip;  ///< radii of pinion and wheel [mm]
+  std::array<double, 2> base, root, tip;  ///< radii of pinion and wheel, of the flank that may touch: active root and tip form [mm]
   std::array<double, 2> half_face;        ///< [mm]
   std::array<double, 2> mid_face;         ///< z of it [mm]
-  double mirror;                          ///< -1: the left flank of the pinion works
-  bool turned;                            ///< it is not the pair's own: what is removed from that at z is removed at -z
+  std::string flank;                      ///< that works: "right" or "left"
+  double mirror;                          ///< -1: the left one
 
   /// @param loaded  the load case
   MeshFrame(const Json& json, const Json& loaded) {
@@ -129,17 +129,15 @@ struct MeshFrame {
     path = geometry.at("path_of_contact_mm").at("T1_T2");
     base_pitch = geometry.at("transverse_base_pitch_mm");
     centre_distance = geometry.at("centre_distance_mm");
-    const Json& own_flank = used.at("working_flank");
-    const Json flank = loaded.value("working_flank", own_flank);
+    flank = loaded.value("working_flank", used.at("working_flank").get<std::string>());
     mirror = flank == "right" ? 1.0 : -1.0;
-    turned = flank != own_flank;
     const double hand = geometry.at("pinion").at("hand") == "right" ? 1.0 : -1.0;
     lead = mirror * hand * std::tan(geometry.at("base_helix_angle_deg").get<double>() * units::deg);
     for (const std::size_t g : {0U, 1U}) {
       const Json& gear = geometry.at(g == 0U ? "pinion" : "wheel");
       base[g] = 0.5 * gear.at("base_diameter_mm").get<double>();
       root[g] = 0.5 * gear.at("active_root_diameter_mm").get<double>();
-      tip[g] = 0.5 * gear.at("tip_diameter_mm").get<double>();
+      tip[g] = 0.5 * gear.at("tip_form_diameter_mm").get<double>();
       half_face[g] = 0.5 * used.at(g == 0U ? "pinion" : "wheel").at("face_width_mm").get<double>();
       mid_face[g] = g == 0U ? 0.0 : loaded.value("axial_offset_mm", 0.0);
     }
@@ -188,10 +186,10 @@ PolyData contact_lines(const MeshFrame& frame, const Json& position) {
   return data;
 }
 
-/// The map of what is removed from a gear's flank in a design; null where it is unmodified.
-const Json* removal_map(const Json& json, std::size_t gear, const std::string& design) {
+/// The map of what is removed from a gear's flank in a design, from the active root to the tip form radius; null where it is unmodified.
+const Json* removal_map(const Json& json, std::size_t gear, const std::string& flank, const std::string& design) {
   for (const Json& map : json.at("modifications")) {
-    if (map.at("gear") == (gear == 0U ? "pinion" : "wheel") && map.at("design") == design) return &map;
+    if (map.at("gear") == (gear == 0U ? "pinion" : "wheel") && map.at("flank") == flank && map.at("design") == design) return &map;
   }
   return nullptr;
 }
@@ -226,11 +224,15 @@ PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, 
             frame.mid_face[gear] + std::lerp(-frame.half_face[gear], frame.half_face[gear], static_cast<double>(j) / (surface_points - 1));
         const double of_pinion = at_mid + tooth.at("tooth").get<int>() * frame.base_pitch + frame.lead * z;
         const auto [x, y] = frame.place(gear, frame.roll(gear, radius), gear == 0U ? of_pinion : frame.path - of_pinion);
-        const auto along = static_cast<std::size_t>((frame.turned ? surface_points - 1 - j : j) * surface_step);
-        const double removed = removal == nullptr ? 0.0 : number(removal->at("removal_um").at(static_cast<std::size_t>(i * surface_step)).at(along));
+        const auto row_of_map = static_cast<std::size_t>(i * surface_step), column = static_cast<std::size_t>(j * surface_step);
+        const double removed = removal == nullptr ? 0.0 : number(removal->at("removal_um").at(row_of_map).at(column));
         row.push_back(data.add_point(x, y, z, {removed, radius}));
       }
-      for (std::size_t j = 0; i > 0 && j + 1 < row.size(); ++j) data.add_cell({before[j], before[j + 1], row[j + 1], row[j]}, tooth.at("tooth"));
+      for (std::size_t j = 0; i > 0 && j + 1 < row.size(); ++j) {  // in the order by which normals point out of the tooth
+        std::vector<int> corners{before[j], before[j + 1], row[j + 1], row[j]};
+        if (frame.mirror < 0.0) std::ranges::reverse(corners);
+        data.add_cell(corners, tooth.at("tooth"));
+      }
       before = std::move(row);
     }
   }
@@ -248,8 +250,8 @@ void add_case(const Json& json, std::size_t index, std::vector<NamedText>& files
   for (const Json& position : loaded.at("cycle")) {
     const std::array<std::pair<const char*, std::string>, 3> parts{
         {{"lines", contact_lines(frame, position).text("Lines", comment)},
-         {"pinion", flanks(frame, position, 0, removal_map(json, 0, design)).text("Polys", comment)},
-         {"wheel", flanks(frame, position, 1, removal_map(json, 1, design)).text("Polys", comment)}}};
+         {"pinion", flanks(frame, position, 0, removal_map(json, 0, frame.flank, design)).text("Polys", comment)},
+         {"wheel", flanks(frame, position, 1, removal_map(json, 1, frame.flank, design)).text("Polys", comment)}}};
     for (std::size_t part = 0; part < parts.size(); ++part) {
       const std::string file = fmt::format("{}/{}-{:04}.vtp", name, parts[part].first, k);
       collection += fmt::format("<DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", number(position.at("phase")), part, file);

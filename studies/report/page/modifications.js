@@ -67,10 +67,16 @@ const amounts_count = (results) => (normal_share(results) === null ? "Amounts ar
 /** Whether a grid of a topography has more than what is written as 0.0 µm. */
 const is_modified = (grid) => grid.rows.flat().some((value) => Math.abs(value) > 0.05);
 
-/** Every stored topography: [{gear, design, grid}]. */
-const topographies = (results) => list(results.modifications).map(record)
+/** The flank that the pair works on, unless a scene says otherwise; null in results of an older version. */
+const own_flank = (results) => record(record(results.used).pair).working_flank ?? null;
+
+/** Every stored topography of the flanks that the pair works on, without those of single scenes: [{gear, design, grid}]. */
+const topographies = (results) => all_topographies(results).filter((entry) => entry.flank === own_flank(results));
+
+/** The same of all flanks. */
+const all_topographies = (results) => list(results.modifications).map(record)
   .map((entry) => ({
-    gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given", grid: topography_grid(entry),
+    gear: entry.gear, flank: entry.flank ?? own_flank(results), design: DESIGN_LABEL[entry.design] ? entry.design : "given", grid: topography_grid(entry),
     process: String(entry.process ?? "none"), natural_twist_um: entry.natural_twist_um, contact_shift_mm: entry.contact_shift_mm,
   }))
   .filter((entry) => entry.grid !== null);
@@ -86,24 +92,27 @@ function natural_twist_in_words(entries) {
 
 function build_modifications(results, body) {
   const grid = figure_grid(body);
-  const entries = topographies(results);
-  for (const gear of unique(entries.map((entry) => entry.gear))) {
-    const own = entries.filter((entry) => entry.gear === gear)
+  const entries = all_topographies(results);
+  const several = unique(entries.map((entry) => entry.flank)).length > 1;
+  for (const [gear, side] of ["pinion", "wheel"].flatMap((gear) => unique(entries.map((entry) => entry.flank)).map((side) => [gear, side]))) {
+    const own = entries.filter((entry) => entry.gear === gear && entry.flank === side)
       .sort((a, b) => DESIGN_ORDER.indexOf(a.design) - DESIGN_ORDER.indexOf(b.design));
+    if (own.length === 0) continue;
+    const flank = several ? `${side} flank of the ${gear}` : `${gear} flank`;
     if (!own.some((entry) => is_modified(entry.grid))) {
-      body.append(el("p", { class: "remark" }, `The ${gear} flank is unmodified.`));
+      body.append(el("p", { class: "remark" }, `The ${flank} is unmodified.`));
       continue;
     }
     figure(grid, {
-      title: `Topography of the ${gear} flank`,
+      title: `Topography of the ${flank}`,
       wide: own.length > 1,
-      caption: `Material removed from the involute ${gear} flank, along the base tangent, with its contour lines; `
+      caption: `Material removed from the involute ${flank}, along the base tangent, with its contour lines; `
         + `face width to the right, tip at the top.${natural_twist_in_words(own)}`,
     }, (plot) => draw_topography(plot, gear, own));
     const modified = own.filter((entry) => is_modified(entry.grid));
     const state = { degrees: -30 };
     figure(grid, {
-      title: `The ${gear} flank as a surface`,
+      title: `The ${flank} as a surface`,
       wide: modified.length > 1,
       caption: "The surface lies below the unmodified flank (dashed frame) by the removed material; heights are magnified.",
     }, (plot) => draw_surfaces(plot, modified.map((entry) => ({ title: design_title(entry), grid: entry.grid })), removal_scale(own), gear, state));

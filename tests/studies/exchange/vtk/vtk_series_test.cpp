@@ -9,6 +9,8 @@
 #include <pugixml.hpp>
 
 #include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/flank/flank.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/exchange/rexs/rexs_model.hpp"
@@ -191,6 +193,37 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
       }
     }
     CHECK(compared > 5);
+  }
+}
+
+TEST_CASE("What is removed is drawn where it is removed, and normals point out of the tooth", "[studies][vtk]") {
+  const std::string flank = GENERATE("right", "left");
+  CAPTURE(flank);
+  const StudyResults results = run_study(parse_study(small::analysis(), "a",
+                                                     {{"pair.working_flank", flank},
+                                                      {"pinion.tip_chamfer", "{ amount = 2, angle = 45 }"},
+                                                      {"pinion.modification.tip_relief", "{ amount = 30, height = 8 }"},
+                                                      {"cycle.positions", "2"},
+                                                      {"cycle.peaks", "sampled"}}));
+  const GearPair& pair = results.pair;
+  std::map<std::string, std::string> files;
+  for (const NamedText& file : vtk_series(results_document(results), "a")) files[file.name] = file.text;
+  const Piece surface = read_piece(files.at("contact-1/pinion-0000.vtp"), "Polys");
+  const Flank drawn = make_flank(pair, Member::Pinion, results.loaded.front().condition.modification.pinion, {});
+  const std::vector<double>&removed = surface.fields.at("removal_um"), &radius = surface.fields.at("radius_mm");
+  constexpr double round_off = 1e-9;
+  for (std::size_t i = 0; i < removed.size(); ++i) {
+    CHECK(radius[i] <= pair.pinion.tip_form_radius * (1.0 + round_off));
+    CHECK(removed[i] == tests::about(drawn.deviation(drawn.roll_at(radius[i]), surface.points[3 * i + 2], 0) / units::um, 1e-6));  // um
+  }
+  CHECK(*std::ranges::max_element(removed) > 10.0);
+  for (std::size_t c = 0; c < surface.offsets.size(); ++c) {
+    const auto corner = [&](std::size_t k) {
+      return Eigen::Vector3d::Map(&surface.points[3 * static_cast<std::size_t>(surface.connectivity[4 * c + k])]);
+    };
+    // The right flank of an upright tooth faces clockwise about the axis towards the eye, the left one counterclockwise.
+    const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(3) - corner(0)), around(-corner(0).y(), corner(0).x(), 0.0);
+    CHECK((normal.dot(around) < 0.0) == (flank == "right"));
   }
 }
 
