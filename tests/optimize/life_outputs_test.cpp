@@ -7,6 +7,7 @@
 #include "optimize/design/design_optimiser.hpp"
 #include "optimize/design/search/direct_program.hpp"
 #include "optimize/design/search/epigraph_program.hpp"
+#include "optimize/design/search/local_model.hpp"
 #include "optimize/design/outputs/scene_outputs.hpp"
 #include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
@@ -52,6 +53,34 @@ const std::vector<Output> life_terms{
     Output::ContactTemperature, Output::ContactUtilisation, Output::RootUtilisation, Output::MicropittingUtilisation, Output::ScuffingUtilisation};
 
 }  // namespace
+
+TEST_CASE("A step of a workshop changes a damage by a power of the stress, not in proportion", "[optimize][assessment][life]") {
+  DesignTask task = task_under_spectrum();
+  task.constraints.clear();
+  const DesignProblem problem(task);
+  const std::vector<AssessedParameter> parameters = variable_parameters(task);
+  const LocalModel model(problem, task.modification, parameters);
+  const double now = problem.objective(problem.analyse_design(task.modification));
+  const auto found = [&](std::size_t i, double steps) {
+    PerGear<Modification> moved = task.modification;
+    const auto& g = std::get<GearParameter>(parameters[i].parameter);
+    set(moved[g.member], g.parameter, get(moved[g.member], g.parameter) + steps * parameters[i].inside);
+    return problem.objective(problem.analyse_design(moved));
+  };
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    CAPTURE(parameters[i].name);
+    const auto by_model = [&](double steps) {
+      return model.objective(steps * Eigen::VectorXd::Unit(model.parameters(), static_cast<Eigen::Index>(i)));
+    };
+    constexpr double small = 1e-3, second_order = 0.02;
+    CHECK(by_model(small) - now == Approx(found(i, small) - now).epsilon(second_order).margin(1e-8 * now));
+    for (const double step : {1.0, -1.0}) {
+      CAPTURE(step);
+      constexpr double curved = 0.5;  // model: stress is linear to a few per cent, which its tenth power multiplies
+      CHECK(by_model(step) - now == Approx(found(i, step) - now).epsilon(curved).margin(0.05 * now));
+    }
+  }
+}
 
 TEST_CASE("Gradients of damage, loss, film and temperature are what central differences say", "[optimize][design][life][gradient]") {
   DesignTask task = task_under_spectrum();

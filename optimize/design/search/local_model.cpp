@@ -96,10 +96,17 @@ std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
   return parameters;
 }
 
+double LocalModel::Candidate::at(const Eigen::VectorXd& steps) const {
+  const double change = slope.dot(steps);
+  if (growth == 1.0 || value == 0.0) return value + change;
+  return value * std::pow(std::max(0.0, 1.0 + change / (growth * value)), growth);
+}
+
 double LocalModel::Peak::at(const Eigen::VectorXd& steps) const {
+  if (is_phasor) return sign * std::hypot(candidates[0].at(steps), candidates[1].at(steps)) - limit;
   double largest = -INFINITY;
-  for (const Candidate& c : candidates) largest = std::max(largest, c.value + c.slope.dot(steps));
-  return largest;
+  for (const Candidate& c : candidates) largest = std::max(largest, c.at(steps));
+  return largest - limit;
 }
 
 LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters,
@@ -140,11 +147,15 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
       }
       return slope;
     };
-    const auto peak_of = [&](const ObjectiveTerm& term, double factor, double shift) {
-      Peak peak;
-      for (const PeakCandidate& candidate : leading_candidates(term, scene, reach, most_candidates)) {
+    const auto peak_of = [&](const ObjectiveTerm& term, double factor, double limit) {
+      const DesignOutput& output = design_output(term.output);
+      Peak peak{.candidates = {}, .is_phasor = output.has_orders, .sign = factor < 0.0 ? -1.0 : 1.0, .limit = limit};
+      constexpr int right_angle = harmonic_directions / 4;
+      const std::vector<PeakCandidate> components{{-1, 0}, {-1, right_angle}};
+      const double within = 1.0 - std::pow(1.0 - reach, output.growth);  // `reach` of the stress
+      for (const PeakCandidate& candidate : peak.is_phasor ? components : leading_candidates(term, scene, within, most_candidates)) {
         const SmoothValue found = candidate_value(term, candidate, scene);
-        peak.candidates.push_back({factor * found.value + shift, factor * slope_of(found.gradient)});
+        peak.candidates.push_back({factor * found.value, factor * slope_of(found.gradient), output.growth});
       }
       return peak;
     };
@@ -153,10 +164,10 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
     }
     for (std::size_t c = 0; c < task_.constraints.size(); ++c) {
       const OutputConstraint& bound = task_.constraints[c];
-      const double sign = bound.is_least() ? -1.0 : 1.0;
+      const double sign = bound.is_least() ? -1.0 : 1.0, size = std::abs(bound.limit());
       Peak& peak = constraints_[c][static_cast<std::size_t>(s)];
-      peak = peak_of(bound.output, sign / std::abs(bound.limit()), -sign * bound.limit() / std::abs(bound.limit()));
-      if (bound.one_suffices()) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
+      peak = peak_of(bound.output, sign / size, sign * bound.limit() / size);
+      if (bound.one_suffices() && !peak.is_phasor) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
     }
     for (Eigen::Index a = 0; a < std::ssize(active); ++a) {
       const ActiveBound& felt = active[static_cast<std::size_t>(a)];

@@ -45,38 +45,23 @@ const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task);
 /// Objective and bounded outputs of one design to first order. Each peak is the largest of its leading candidates,
 /// which have exact derivatives,
 ///
-///     measure_s(p) = sum_k w_k max_j (c_skj + g_skj . p)          p in steps of the parameters.
+///     measure_s(p) = sum_k w_k max_j v_skj(p)          p in steps of the parameters.
 ///
 /// At a kink of a peak one-sided derivatives follow by themselves; off it, a second candidate is seen before it is the
-/// largest. Candidates within `reach` of their peak take part.
+/// largest. Candidates within `reach` of their peak take part. Linear in p are stresses, loads and differences of the transmission error themselves, the two
+/// components of a harmonic, and the n-th root of what grows with the n-th power of a stress (DesignOutput::growth):
+///
+///     v(p) = v (1 + g . p / (n v))^n,   of a harmonic   v(p) = |c + C p|.
 class LocalModel {
  public:
-  static constexpr double reach = 0.2;  ///< candidate >= (1 - reach) peak
-
-  /// A smooth function: value [outside units; bounded outputs: excess over the bound] and its change by a step of each parameter.
-  struct Candidate {
-    double value{not_given};
-    Eigen::VectorXd slope;
-  };
-  /// The largest of its candidates, first the leading one.
-  struct Peak {
-    std::vector<Candidate> candidates;
-    double at(const Eigen::VectorXd& steps) const;
-  };
+  static constexpr double reach = 0.2;  ///< candidate >= (1 - reach)^n peak, n: DesignOutput::growth
 
   /// @param active  what has a multiplier at this design, for active_slopes() and lagrangian_slope()
   /// @throws std::runtime_error where a scene's load distribution does not converge
   LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters,
              const std::vector<ActiveBound>& active = {});
 
-  int scenes() const { return static_cast<int>(measures_.size()); }
   int parameters() const { return parameters_; }
-  /// Weighted peaks of the objective's terms in a scene.
-  const std::vector<Peak>& measure(int scene) const { return measures_[static_cast<std::size_t>(scene)]; }
-  /// Bounded output c in every scene: OutputConstraint::excess().
-  const std::vector<Peak>& constraint(int c) const { return constraints_[static_cast<std::size_t>(c)]; }
-  int constraints() const { return static_cast<int>(constraints_.size()); }
-
   std::vector<double> scene_measures(const Eigen::VectorXd& steps) const;
   /// The scenes' measures, aggregated as in the task, outside units.
   double objective(const Eigen::VectorXd& steps) const;
@@ -89,10 +74,26 @@ class LocalModel {
   Eigen::VectorXd lagrangian_slope() const { return active_slopes_.transpose() * multipliers_; }
 
  private:
+  /// A smooth function: value [outside units; bounded outputs: relative to the limit] and its change by a step of each parameter.
+  struct Candidate {
+    double value{not_given};
+    Eigen::VectorXd slope;
+    double growth{1.0};
+    double at(const Eigen::VectorXd& steps) const;
+  };
+  /// The largest of its candidates, less a limit.
+  struct Peak {
+    std::vector<Candidate> candidates;  ///< first the leading one
+    bool is_phasor{false};              ///< the two candidates are the components of a harmonic, whose amplitude it is
+    double sign{1.0};                   ///< of the amplitude; -1: it has a least value
+    double limit{0.0};
+    double at(const Eigen::VectorXd& steps) const;
+  };
+
   const DesignTask& task_;
   int parameters_{0};
   std::vector<std::vector<Peak>> measures_;     ///< [scene][term]
-  std::vector<std::vector<Peak>> constraints_;  ///< [constraint][scene]
+  std::vector<std::vector<Peak>> constraints_;  ///< [constraint][scene]: OutputConstraint::excess()
   Eigen::VectorXd multipliers_;
   Eigen::MatrixXd active_slopes_;
 };

@@ -112,6 +112,25 @@ TEST_CASE("Over the whole surface a step of a misalignment takes the points with
   }
 }
 
+TEST_CASE("A harmonic answers to a small step with the derivative of its amplitude, to a large one as a phasor", "[optimize][assessment]") {
+  DesignTask task = helical({6.0}, 16);
+  task.objective = {term(Output::TeHarmonic, 1)};
+  const DesignProblem problem(task);
+  const std::vector<AssessedParameter> parameters = assessed_parameters(task);
+  const LocalModel model(problem, task.modification, parameters);
+  const double now = model.objective(Eigen::VectorXd::Zero(model.parameters()));
+  CHECK(now == Approx(problem.objective(problem.analyse_design(task.modification))).epsilon(1e-12));  // round-off
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (parameters[i].variable < 0) continue;
+    CAPTURE(parameters[i].name);
+    const auto step = [&](double share) { return share * Eigen::VectorXd::Unit(model.parameters(), static_cast<Eigen::Index>(i)); };
+    const auto found = [&](double share) { return moved_objective(task, task.modification, parameters[i], share); };
+    constexpr double share = 0.01, second_order = 1e-3;
+    const double slope = (model.objective(step(share)) - model.objective(step(-share))) / (2 * share);
+    CHECK(slope == Approx((found(share) - found(-share)) / (2 * share)).epsilon(second_order).margin(1e-6 * now));
+  }
+}
+
 TEST_CASE("No step of a variable improves an optimum, and its bounds have their gains", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   task.variables[0].upper = 0.004;  // less lead crowning than the optimum wants

@@ -201,8 +201,9 @@ TEST_CASE("What is removed is drawn where it is removed, and normals point out o
   CAPTURE(flank);
   const StudyResults results = run_study(parse_study(small::analysis(), "a",
                                                      {{"pair.working_flank", flank},
-                                                      {"pinion.tip_chamfer", "{ amount = 2, angle = 45 }"},
-                                                      {"pinion.modification.tip_relief", "{ amount = 30, height = 8 }"},
+                                                      {"pinion.edges.tip_chamfer.amount", "2"},
+                                                      {"pinion.modification.tip_relief.amount", "30"},
+                                                      {"pinion.modification.tip_relief.height", "8"},
                                                       {"cycle.positions", "2"},
                                                       {"cycle.peaks", "sampled"}}));
   const GearPair& pair = results.pair;
