@@ -39,8 +39,8 @@ class Export {
   }
 
   ExportedStage stage() {
-    const int unit = add("gear_unit", study_.title);
-    const int stage = add("cylindrical_stage", study_.title);
+    const int unit = unit_ = add("gear_unit", study_.title);
+    const int stage = stage_ = add("cylindrical_stage", study_.title);
     length("center_distance", pair_.centre_distance);
     length("common_face_width", pair_.face_width);
     const std::array<int, 2> gears{add_gear(Member::Pinion), add_gear(Member::Wheel)};
@@ -52,7 +52,12 @@ class Export {
       add_flanks(m, gear);
       add_material(m, gear);
     }
-    add_load_cases();
+    add_oil();
+    if (study_.spectrum.empty()) {
+      add_load_cases();
+    } else {
+      add_spectrum(gears[0]);
+    }
     add_notes();
     return std::move(result_);
   }
@@ -321,12 +326,60 @@ class Export {
     }
   }
 
+  /// Torque, speed, time and temperature of each bin, at the components that the format has them for.
+  void add_spectrum(int pinion) {
+    const int shaft = add("shaft", "pinion shaft");
+    relate("assembly", {{shaft, "assembly", "shaft"}, {pinion, "part", "cylindrical_gear"}});
+    const auto vary = [this](LoadCase& load_case, int component, const char* id, const char* unit, double value) {
+      Component varied{.id = component, .type = result_.model.find(component)->type};
+      varied.attributes.push_back({id, unit, ValueType::Number, number_text(value)});
+      load_case.components.push_back(std::move(varied));
+    };
+    bool says_all = true;
+    for (const SpectrumBin& bin : study_.spectrum) {
+      LoadCase load_case{static_cast<int>(result_.model.load_cases.size()) + 1, {}};
+      vary(load_case, pinion_data_, "torque", "N m", bin.torque / units::newton_metre);
+      const double speed = std::isnan(bin.speed) ? study_.speed : bin.speed;  // rad/s
+      const double hours = std::isnan(bin.hours) ? bin.cycles * 2.0 * units::pi / speed : bin.hours;
+      if (!std::isnan(speed)) vary(load_case, shaft, "rotational_speed", "1 / min", speed / units::rpm);
+      if (!std::isnan(hours)) vary(load_case, unit_, before("1.3") ? "load_duration" : "operating_time", "h", hours / units::hour);
+      if (!std::isnan(bin.temperature)) vary(load_case, stage_, "temperature_lubricant", "C", bin.temperature);
+      says_all = says_all && !std::isnan(hours) && bin.mesh_misalignment == 0.0 && std::isnan(bin.dynamic_factor);
+      result_.model.load_cases.push_back(std::move(load_case));
+    }
+    if (!says_all) {
+      result_.notes.push_back(
+          "of the load spectrum, what the format has no attribute for is not exported: cycles without a speed, K_v and misalignment of single bins");
+    }
+  }
+
+  void add_oil() {
+    const LifeTable& life = study_.life;
+    if (!life.has_lubricant) return;
+    for (Component& component : result_.model.components) {
+      if (component.id == stage_) component.attributes.push_back({"temperature_lubricant", "C", ValueType::Number, number_text(life.lubricant.temperature)});
+      const bool has_roughness = component.type == "cylindrical_gear" && !std::isnan(life.roughness);
+      const char* const roughness = before("1.3") ? "arithmetic_average_roughness_flank" : "arithmetic_mean_roughness_flank_iso_4287_1997";
+      if (has_roughness) component.attributes.push_back({roughness, "mum", ValueType::Number, number_text(life.roughness / units::um)});
+    }
+    const int oil = add("lubricant");
+    relate("reference", {{stage_, "origin", "cylindrical_stage"}, {oil, "referenced", "lubricant"}});
+    word("kind", "oil");
+    const BaseOil base = life.lubricant.base;
+    word("lubricant_type_iso_6336_2019", base == BaseOil::Mineral           ? "mineral_oil"
+                                         : base == BaseOil::Polyalphaolefin ? "polyalfaolefin"
+                                                                            : "water_soluble_polyglycol");
+    attribute("viscosity_at_40_degree_celsius", "mm^2 / s", ValueType::Number, number_text(life.lubricant.viscosity_40));
+    attribute("viscosity_at_100_degree_celsius", "mm^2 / s", ValueType::Number, number_text(life.lubricant.viscosity_100));
+    attribute("density_at_15_degree_celsius", "kg / dm^3", ValueType::Number, number_text(life.lubricant.density_15 * 1e-3));
+  }
+
   void add_notes() {
     result_.notes.push_back("modifications are those of the working flanks; the flanks at the back are exported without");
     if (before("1.3")) result_.notes.push_back("modifications are part of the format since 1.3; older readers pass over them");
     const bool has_allowance = pair_.pinion.data.tooth_thickness_allowance != 0.0 || pair_.wheel.data.tooth_thickness_allowance != 0.0;
     if (before("1.3") && has_allowance) result_.notes.push_back("tooth thickness allowances are part of the format since 1.3: left out");
-    result_.notes.push_back("misalignment, shafts, speed and errors of teeth are not exported");
+    result_.notes.push_back(fmt::format("misalignment, shafts, {}errors of teeth, strength, K_A and K_v are not exported", study_.spectrum.empty() ? "speed, " : ""));
     for (const Member m : both_gears) note_edges(m);
   }
 
@@ -350,7 +403,7 @@ class Export {
   PerGear<Modification> modification_;  ///< with the process that was analysed
   std::string version_;
   ExportedStage result_;
-  int flank_{0}, pinion_data_{0};
+  int unit_{0}, stage_{0}, flank_{0}, pinion_data_{0};
   std::string flank_type_;
 };
 
