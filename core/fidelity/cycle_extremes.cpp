@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/fidelity/curve_rise.hpp"
+#include "core/rating/edge_contact_start.hpp"
 #include "core/rating/line_region.hpp"
 
 namespace flankwright {
@@ -16,12 +17,34 @@ namespace {
 /// Transmission error, the same turned over, contact stress, line load, stress on tip edges, their share of the load (0 without), which is
 /// not sought for itself: it peaks where the stress does.
 constexpr std::size_t curves = 6, sought = 5;
-using Values = std::array<double, curves>;
+/// Behind them, how far the tip edge of either gear is pressed into its mate, see edge_approach().
+constexpr std::size_t edge_approaches = curves, all_curves = curves + 2;
+using Values = std::array<double, all_curves>;
 
-Values values_of(const LoadedPosition& position) {
-  const double te = position.load.transmission_error;
-  const double on_edges = position.edge_stress.size() > 0 ? position.edge_stress.maxCoeff() : 0.0;
-  return {te, -te, position.contact_stress.maxCoeff(), position.peak_load.maxCoeff(), on_edges, std::fmax(0.0, position.tip_edge_share)};
+/// How far a tip edge is pressed into its mate, where contact would be on it [mm]; below 0 the gap that is left. It runs smoothly through 0 where the stress on
+/// the edge begins. NaN where no point of the position lies beyond an edge of this gear.
+double edge_approach(const MeshPosition& at, const LoadedPosition& loaded, Member gear) {
+  double approach = not_given;
+  for (std::size_t i = 0; i < at.points.size() && !at.laws.empty(); ++i) {
+    const TipEdge& edge = at.points[i].tip_edge;
+    if (!at.laws[i].edge() || edge.gear != gear || edge.distance > 0.0) continue;
+    const auto point = static_cast<Eigen::Index>(i);
+    approach = std::fmax(approach, loaded.load.contact_deflection[point] - loaded.load.remaining_gap[point]);
+  }
+  return approach;
+}
+
+Values values_of(const MeshPosition& at, const LoadedPosition& loaded) {
+  const double te = loaded.load.transmission_error;
+  const double on_edges = loaded.edge_stress.size() > 0 ? loaded.edge_stress.maxCoeff() : 0.0;
+  return {te,
+          -te,
+          loaded.contact_stress.maxCoeff(),
+          loaded.peak_load.maxCoeff(),
+          on_edges,
+          std::fmax(0.0, loaded.tip_edge_share),
+          edge_approach(at, loaded, Member::Pinion),
+          edge_approach(at, loaded, Member::Wheel)};
 }
 
 /// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
@@ -32,11 +55,13 @@ constexpr int parts = 8;
 
 class Search {
  public:
-  Search(const MeshAt& mesh_at, const FlankCondition& condition, double torque, const LoadedCycle& cycle, const ExtremeSearch& settings)
+  Search(const MeshModel& model, const MeshAt& mesh_at, const FlankCondition& condition, double torque, const LoadedCycle& cycle,
+         const ExtremeSearch& settings)
       : mesh_at_(mesh_at), condition_(condition), torque_(torque), settings_(settings) {
     double approach = 0.0;
-    for (const LoadedPosition& position : cycle.positions) {
-      known_[position.phase] = values_of(position);
+    for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
+      const LoadedPosition& position = cycle.positions[p];
+      known_[position.phase] = values_of(model.positions[p], position);
       even_.insert(position.phase);
       approach += (position.load.transmission_error - position.gap.total.minCoeff()) / static_cast<double>(cycle.positions.size());
     }
@@ -53,6 +78,12 @@ class Search {
         const CurveRise promise = highest_promise(c);
         if (promise.height > best(c) + slack_[c]) probes.insert(promise.x);
       }
+      for (std::size_t c = edge_approaches; c < all_curves; ++c) {
+        // Where the edge carries already, its stress is sought as well: the approach tells of tops that are much higher than what is known.
+        constexpr double much = 1.05;
+        const CurveRise promise = highest_promise(c);
+        if (promise.height > much * std::max(0.0, best(c))) probes.insert(promise.x);
+      }
       std::erase_if(probes, [this](double phase) { return known_.contains(phase); });
       if (probes.empty()) break;
       const std::vector<double> phases(probes.begin(), probes.end());
@@ -61,7 +92,7 @@ class Search {
       const LoadedCycle cycle = analyse_cycle(mesh, condition_, torque_, {}, RootStresses::Later);
       found.looked_at += static_cast<int>(phases.size());
       if (!cycle.usable()) break;
-      for (std::size_t i = 0; i < phases.size(); ++i) known_[phases[i]] = values_of(cycle.positions[i]);
+      for (std::size_t i = 0; i < phases.size(); ++i) known_[phases[i]] = values_of(mesh.positions[i], cycle.positions[i]);
     }
     std::set<double> phases;
     for (std::size_t c = 0; c < curves; ++c) {
@@ -81,8 +112,11 @@ class Search {
   }
 
  private:
+  /// NaN where no phase has a value.
   double best(std::size_t c) const {
-    return std::ranges::max_element(known_, {}, [c](const auto& entry) { return entry.second[c]; })->second[c];
+    double largest = not_given;
+    for (const auto& [phase, values] : known_) largest = std::fmax(largest, values[c]);
+    return largest;
   }
 
   /// Over all intervals, the cycle closed; at the division of its interval that is nearest.
@@ -116,40 +150,47 @@ class Search {
 }  // namespace
 
 std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle& cycle) {
-  const bool has_edges = std::ranges::any_of(model.positions, [](const MeshPosition& at) {
-    return std::ranges::any_of(at.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
-  });
+  constexpr int enough = 3;  // positions that know a piece of a curve
   const double spacing = 1.0 / static_cast<double>(cycle.positions.size());
   const LineRegion region(model);
   const double at_start = region.path.phase_at(0.0, region.face_start), at_end = region.path.phase_at(0.0, region.face_end);
-  if (!has_edges || !(std::abs(at_end - at_start) < spacing)) return {};
-  const double middle = 0.5 * (at_start + at_end);
+  constexpr double short_passage = 4.0;  // spacings: in a longer one several positions know how far the edge is from its mate
+  if (!(std::abs(at_end - at_start) < short_passage * spacing)) return {};
+  const double middle = 0.5 * (region.first + region.last);
   std::vector<double> phases;
   for (const bool is_start : {true, false}) {
-    const double passage = (is_start ? region.first : region.last) - middle, outwards = is_start ? -1.0 : 1.0;  // line phase of A, of E
-    const auto carries = [&](std::size_t p) {
+    const double edge = is_start ? region.first : region.last, outwards = is_start ? -1.0 : 1.0;  // phase of A, of E
+    int seen = 0;
+    double most = 0.0,
+           passage = not_given;  // of the flank within a spacing of the edge: its largest load, and when that point of the face passes the edge
+    for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
       const MeshPosition& at = model.positions[p];
+      bool reaches = false;
       for (std::size_t i = 0; i < at.points.size(); ++i) {
-        const double inside = outwards * (passage - at.phase - at.points[i].tooth);
-        if (inside >= 0.0 && inside < spacing && cycle.positions[p].load.line_load[static_cast<Eigen::Index>(i)] > 0.0) return true;
+        const ContactPoint& point = at.points[i];
+        if (at.laws.empty() || !at.laws[i].edge() || (point.phase < middle) != is_start) continue;
+        reaches = reaches || reaches_tip_edge(at, cycle.positions[p], i);
+        const double inside = outwards * (edge - point.phase), load = cycle.positions[p].load.line_load[static_cast<Eigen::Index>(i)];
+        if (inside < 0.0 || inside >= spacing || !(load > most)) continue;
+        most = load;
+        passage = at.phase + outwards * inside;
       }
-      return false;
-    };
-    bool is_loaded = false;
-    for (std::size_t p = 0; p < cycle.positions.size() && !is_loaded; ++p) is_loaded = carries(p);
-    if (!is_loaded) continue;
+      seen += reaches ? 1 : 0;
+    }
+    if (seen >= enough || std::isnan(passage)) continue;
     for (const int thirds : {1, 2, 3, 4}) {
-      const double phase = passage + outwards * thirds / 3.0 * spacing;
+      constexpr double grid = 0x1p-30;  // of phases: round-off does not make two meshes of one
+      const double phase = grid * std::round((passage + outwards * thirds / 3.0 * spacing) / grid);
       phases.push_back(phase - std::floor(phase));
     }
   }
   return phases;
 }
 
-CycleExtremes locate_extremes(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const LoadedCycle& cycle,
-                              const ExtremeSearch& search) {
+CycleExtremes locate_extremes(const MeshModel& model, const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque,
+                              const LoadedCycle& cycle, const ExtremeSearch& search) {
   if (!cycle.usable() || cycle.positions.size() < 4 || !(cycle.force > 0.0)) return {};
-  return Search(mesh_at, condition, pinion_torque, cycle, search).run();
+  return Search(model, mesh_at, condition, pinion_torque, cycle, search).run();
 }
 
 }  // namespace flankwright

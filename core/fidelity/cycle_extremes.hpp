@@ -26,10 +26,12 @@ struct CycleExtremes {
   int looked_at{0};                ///< positions solved
 };
 
-/// Phases before A and after E at which a tip edge may carry load between two positions of a cycle. On spur gears a whole line passes the edge in less than the
-/// spacing of the positions (slope * b < spacing), and the edge may carry for less than that, a little outside A and E. Four phases are returned for each of the
-/// two, a third of the spacing apart. There are none where the passage takes longer, because several positions see it, where no edge has a contact law, and where
-/// the line on the flank next to the edge carries no load.
+/// Phases before A and after E at which a tip edge may carry load between two positions of a cycle. On spur gears a whole line passes the edge at once, and the edge
+/// carries for less than the spacing of the positions, a little outside A and E. On crowned or misaligned gears of small helix angle only the loaded part of the face
+/// counts. For each of the two sides that point of the face is taken whose flank has the largest load within a spacing of the edge.
+/// Four phases follow its passage, a third of the spacing apart. There are none where a line takes four spacings or more to pass, because several positions then
+/// know how far the edge is from its mate, where three positions or more know the edge loaded, where no edge has a contact law, and where the flank next to the
+/// edge carries no load.
 /// @param cycle  of the model, at equally spaced phases
 std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle& cycle);
 
@@ -37,12 +39,14 @@ std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle&
 /// end. In every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant
 /// or by the slope extrapolated from the last two secants, whichever is steeper: curves grow steeper towards a kink. On
 /// a smooth top, such as that of a load that passes a corner of the face, a parabola through three neighbours is taken. Beside a position that is
-/// alone on its piece the curve may go on rising, see rise_between().
+/// alone on its piece the curve may go on rising, see rise_between(). Stress on a tip edge begins steeply, perhaps between two positions without any. There the
+/// gap that is left between the edge and its mate is continued in the same way, and looked at where it seems to close.
 /// The most promising phase is solved next. On a kink both meet near the extreme itself, so that two or three positions
 /// a curve are enough.
-/// @param mesh_at  of the cycle; no root stress is needed
+/// @param model    of the cycle
+/// @param mesh_at  likewise; no root stress is needed
 /// @param cycle    at equally spaced phases over one base pitch, at least 4, usable
-CycleExtremes locate_extremes(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const LoadedCycle& cycle,
-                              const ExtremeSearch& search = {});
+CycleExtremes locate_extremes(const MeshModel& model, const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque,
+                              const LoadedCycle& cycle, const ExtremeSearch& search = {});
 
 }  // namespace flankwright

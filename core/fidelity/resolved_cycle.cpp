@@ -42,7 +42,7 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
   const MeshAt without_parameters = [&](const std::vector<double>& phases) { return mesh_at(phases, {}); };
   if (resolving.seek_extremes) {
     const ExtremeSearch search{.first = tip_edge_passages(model, cycle)};
-    resolved.extremes = locate_extremes(without_parameters, condition, pinion_torque, cycle, search);
+    resolved.extremes = locate_extremes(model, without_parameters, condition, pinion_torque, cycle, search);
   }
   if (!resolved.extremes.phases.empty()) {
     const auto mesh = std::make_shared<const MeshModel>(mesh_at(resolved.extremes.phases, parameters));
