@@ -194,16 +194,21 @@ void note_load_factors(const Study& study, std::vector<std::string>& notes) {
 
 /// What the flank behind the study's own is taken to be.
 void note_other_flanks(const Study& study, std::vector<std::string>& notes) {
-  std::vector<std::string> names;
+  std::vector<std::string> names, measured;
   for (const Scene& scene : study.scenes) {
     if (loads_other_flanks(study, scene)) names.push_back("\"" + scene.name + "\"");
   }
   if (names.empty()) return;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (study.modification[m].opposite_topography) measured.push_back(name_of(m));
+  }
   notes.push_back(fmt::format(
       "{} {} load{} the {} flank: it is taken as ground by the tool and in the setting of the {} one, with the same crowning and reliefs and the "
-      "same change of the helix angle (lead slope and twist have the other sign along z there)",
+      "same change of the helix angle (lead slope and twist have the other sign along z there){}",
       names.size() == 1 ? "scene" : "scenes", fmt::join(names, ", "), names.size() == 1 ? "s" : "", name_of(opposite(study.pair.working_flank)),
-      name_of(study.pair.working_flank)));
+      name_of(study.pair.working_flank),
+      measured.empty() ? ""
+                       : fmt::format("; of the {} it has its own grid instead of that of the other flank", fmt::join(measured, " and of the "))));
 }
 
 /// Scenes whose axes are so close that nothing is left of the backlash.

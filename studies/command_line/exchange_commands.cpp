@@ -100,6 +100,7 @@ int export_command(const ExportCommand& options) {
   if (!options.rexs && !options.rexsj && !options.grid && !options.vtk && !options.dynamics) {
     throw InvalidInput("export", "no format", "--rexs, --rexsj, --grid, --vtk or --dynamics, or several of them");
   }
+  constexpr double seen_in_results = 0.1 * units::um;  // a departure above this changes stress and transmission error visibly
   const GridLayout layout = grid_layout(options.grid_points, options.grid_margin);
   const fs::path results = fs::path(options.results) / "results.json";
   const Json json = whole_results(options.results);
@@ -119,7 +120,16 @@ int export_command(const ExportCommand& options) {
       const GearPair pair = make_gear_pair(study.pair);
       const PerGear<Modification> analysed = analysed_modification(study, study_effects(study));
       for (const Member m : both_gears) {
-        write_export(folder / (std::string("grid-") + name_of(m) + ".csv"), grid_table(pair, m, analysed[m], layout, study.title));
+        const std::string name = std::string("grid-") + name_of(m) + ".csv";
+        const GridTable table = grid_table(pair, m, analysed[m], layout, study.title);
+        write_export(folder / name, table.text);
+        if (!table.unreadable.empty()) {
+          notes.push_back(fmt::format("{}: a study cannot read it as modification.grid: {}", name, table.unreadable));
+          continue;
+        }
+        notes.push_back(fmt::format("{}: the surface through the {} x {} points departs from the flank by at most {:.2g} um{}", name,
+                                    layout.profile_points, layout.face_points, table.departure / units::um,
+                                    table.departure > seen_in_results ? "; --grid-points takes more of them" : ""));
       }
     }
   }

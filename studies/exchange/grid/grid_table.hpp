@@ -22,8 +22,15 @@ struct GridLayout {
 /// "9x15" as profile and face points. @throws InvalidInput ("--grid-points") where it is anything else
 GridLayout grid_layout(const std::string& points, double margin);
 
-/// The flank as generated and modified, without errors, against its involute: a table as grid_file.hpp reads it, normal to the flank,
-/// + = metal added, with comments that say what it is.
-std::string grid_table(const GearPair& pair, Member member, const Modification& modification, const GridLayout& layout, const std::string& title);
+/// A flank as points of a grid.
+struct GridTable {
+  std::string text;  ///< as grid_file.hpp reads it, normal to the flank, + = metal added, with comments that say what it is
+  double departure{
+      0.0};  ///< of the surface through the points from the flank, at most, normal to it [mm]: a relief that starts between two lines is rounded
+  std::string unreadable{};  ///< why a study cannot read it as modification.grid, without a departure then; empty: it can
+};
+
+/// The flank as generated and modified, without errors, against its involute.
+GridTable grid_table(const GearPair& pair, Member member, const Modification& modification, const GridLayout& layout, const std::string& title);
 
 }  // namespace flankwright::studies

@@ -339,12 +339,12 @@ class Export {
     for (const SpectrumBin& bin : study_.spectrum) {
       LoadCase load_case{static_cast<int>(result_.model.load_cases.size()) + 1, {}};
       vary(load_case, pinion_data_, "torque", "N m", bin.torque / units::newton_metre);
-      const double speed = std::isnan(bin.speed) ? study_.speed : bin.speed;  // rad/s
-      const double hours = std::isnan(bin.hours) ? bin.cycles * 2.0 * units::pi / speed : bin.hours;
-      if (!std::isnan(speed)) vary(load_case, shaft, "rotational_speed", "1 / min", speed / units::rpm);
-      if (!std::isnan(hours)) vary(load_case, unit_, before("1.3") ? "load_duration" : "operating_time", "h", hours / units::hour);
+      constexpr double rpm = units::pi / 30.0, hour = 3600.0;
+      const double time = std::isnan(bin.hours) ? bin.cycles * 2.0 * units::pi / bin.speed : bin.hours;  // s
+      if (!std::isnan(bin.speed)) vary(load_case, shaft, "rotational_speed", "1 / min", bin.speed / rpm);
+      if (!std::isnan(time)) vary(load_case, unit_, before("1.3") ? "load_duration" : "operating_time", "h", time / hour);
       if (!std::isnan(bin.temperature)) vary(load_case, stage_, "temperature_lubricant", "C", bin.temperature);
-      says_all = says_all && !std::isnan(hours) && bin.mesh_misalignment == 0.0 && std::isnan(bin.dynamic_factor);
+      says_all = says_all && !std::isnan(time) && bin.mesh_misalignment == 0.0 && std::isnan(bin.dynamic_factor);
       result_.model.load_cases.push_back(std::move(load_case));
     }
     if (!says_all) {
@@ -357,7 +357,8 @@ class Export {
     const LifeTable& life = study_.life;
     if (!life.has_lubricant) return;
     for (Component& component : result_.model.components) {
-      if (component.id == stage_) component.attributes.push_back({"temperature_lubricant", "C", ValueType::Number, number_text(life.lubricant.temperature)});
+      if (component.id == stage_)
+        component.attributes.push_back({"temperature_lubricant", "C", ValueType::Number, number_text(life.lubricant.temperature)});
       const bool has_roughness = component.type == "cylindrical_gear" && !std::isnan(life.roughness);
       const char* const roughness = before("1.3") ? "arithmetic_average_roughness_flank" : "arithmetic_mean_roughness_flank_iso_4287_1997";
       if (has_roughness) component.attributes.push_back({roughness, "mum", ValueType::Number, number_text(life.roughness / units::um)});
@@ -379,7 +380,8 @@ class Export {
     if (before("1.3")) result_.notes.push_back("modifications are part of the format since 1.3; older readers pass over them");
     const bool has_allowance = pair_.pinion.data.tooth_thickness_allowance != 0.0 || pair_.wheel.data.tooth_thickness_allowance != 0.0;
     if (before("1.3") && has_allowance) result_.notes.push_back("tooth thickness allowances are part of the format since 1.3: left out");
-    result_.notes.push_back(fmt::format("misalignment, shafts, {}errors of teeth, strength, K_A and K_v are not exported", study_.spectrum.empty() ? "speed, " : ""));
+    result_.notes.push_back(
+        fmt::format("misalignment, shafts, {}errors of teeth, strength, K_A and K_v are not exported", study_.spectrum.empty() ? "speed, " : ""));
     for (const Member m : both_gears) note_edges(m);
   }
 

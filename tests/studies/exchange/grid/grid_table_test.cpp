@@ -36,7 +36,7 @@ TEST_CASE("A grid for the grinder, read as a measured grid, is the modification"
   m.lead_crowning = 0.012;
   m.lead_slope = -0.005;
   m.tip_relief = {0.015, 1.5, ReliefShape::Parabolic};
-  const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Pinion, m, {}, "a\nb"), "grid.csv");
+  const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Pinion, m, {}, "a\nb").text, "grid.csv");
   REQUIRE(grid.radii.size() == 9);
   REQUIRE(grid.z.size() == 15);
   CHECK(grid.radii.front() == tests::about(pair.pinion.active_root_radius, 1e-6));
@@ -62,7 +62,7 @@ TEST_CASE("A grid for the grinder has the natural twist of its process", "[studi
   m.lead_crowning = 0.012;
   for (const GrindingKind kind : {GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding}) {
     m.process.kind = kind;
-    const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Wheel, m, {9, 15, 0.0}, "ground"), "grid.csv");
+    const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Wheel, m, {9, 15, 0.0}, "ground").text, "grid.csv");
     const auto slope = [&](Eigen::Index column) { return grid.deviation(0, column) - grid.deviation(8, column); };  // removed is negative
     // Normal to the flank; four times half of the last digit written.
     CHECK(slope(14) - slope(0) == tests::about(std::cos(pair.base_helix_angle) * natural_twist(pair, Member::Wheel, m), 2e-7));
@@ -70,9 +70,25 @@ TEST_CASE("A grid for the grinder has the natural twist of its process", "[studi
   }
 }
 
+TEST_CASE("A grid says how far the surface through it departs from the flank: the less the more points it has", "[studies][grid-table]") {
+  const GearPair pair = make_gear_pair(pair_data());
+  Modification smooth, kinked;
+  smooth.lead_crowning = 0.012;
+  kinked.tip_relief = {0.015, 1.5, ReliefShape::Linear};
+  constexpr double round_off = 1e-9;
+  CHECK(grid_table(pair, Member::Pinion, smooth, {}, "").departure < round_off);  // a spline has parabolas in it
+  double before = INFINITY;
+  for (const int points : {9, 33, 129}) {
+    const double departure = grid_table(pair, Member::Pinion, kinked, {points, 9, 0.0}, "").departure;
+    CHECK(departure < 0.5 * before);  // at a kink in proportion to the spacing, a quarter
+    before = departure;
+  }
+  CHECK(before > round_off);
+}
+
 TEST_CASE("Points and margin of a grid are as asked for", "[studies][grid-table]") {
   const GearPair pair = make_gear_pair(pair_data());
-  const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Wheel, {}, grid_layout("5x7", 0.1), ""), "grid.csv");
+  const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Wheel, {}, grid_layout("5x7", 0.1), "").text, "grid.csv");
   CHECK(grid.radii.size() == 5);
   REQUIRE(grid.z.size() == 7);
   CHECK(grid.z.front() == Approx(-24.0 + 4.8).epsilon(1e-14));  // round-off

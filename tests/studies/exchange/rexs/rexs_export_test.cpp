@@ -113,6 +113,39 @@ TEST_CASE("A study survives the way to REXS and back to its last digit", "[studi
   check_same(study.torques[1], back.scenes[1].torques.front());
 }
 
+TEST_CASE("A load spectrum comes back with its times and speeds, and the oil with its temperature", "[studies][rexs][export][life]") {
+  const std::string version = GENERATE("1.0", "1.3", "2.0");
+  CAPTURE(version);
+  std::string text = random_study(7);
+  text.insert(
+      text.find("\n[load]"),
+      "\n[lubricant]\nbase = \"polyalphaolefin\"\nviscosity_40 = 220\nviscosity_100 = 25\ndensity = 860\ntemperature = 70\nroughness = 0.3\n");
+  const std::size_t torque = text.find("torque = [");
+  text.replace(torque, text.find('\n', torque) - torque,
+               "spectrum = [{ torque = 900, speed = 1480, hours = 20 }, { torque = 350, speed = 1200, hours = 20000, temperature = 60 }]");
+  const Study there = parse_study(text, "there.toml");
+  const rexs::Model model = rexs::export_stage(there, {version, "2026-01-01T00:00:00+00:00"}).model;
+  for (const rexs::Form form : {rexs::Form::Xml, rexs::Form::Json}) {
+    const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(model, form), "there.rexs", {});
+    const Study back = parse_study(imported.text, "back.toml");
+    CAPTURE(imported.text);
+    REQUIRE(back.spectrum.size() == there.spectrum.size());
+    constexpr double round_off = 1e-9;
+    for (std::size_t i = 0; i < back.spectrum.size(); ++i) {
+      CHECK(back.spectrum[i].torque == Approx(there.spectrum[i].torque).epsilon(round_off));
+      CHECK(back.spectrum[i].speed == Approx(there.spectrum[i].speed).epsilon(round_off));
+      CHECK(back.spectrum[i].hours == Approx(there.spectrum[i].hours).epsilon(round_off));
+    }
+    CHECK(back.spectrum[1].temperature == Approx(60.0).epsilon(round_off));
+    CHECK(back.life.lubricant.viscosity_40 == Approx(220.0).epsilon(round_off));
+    CHECK(back.life.lubricant.viscosity_100 == Approx(25.0).epsilon(round_off));
+    CHECK(back.life.lubricant.density_15 == Approx(860.0).epsilon(round_off));
+    CHECK(back.life.lubricant.temperature == Approx(70.0).epsilon(round_off));
+    CHECK(back.life.roughness == Approx(0.3 * units::um).epsilon(round_off));
+    if (version != "1.0") CHECK(back.life.lubricant.base == BaseOil::Polyalphaolefin);
+  }
+}
+
 TEST_CASE("A tip rounding comes back by the circle at which the flank ends", "[studies][rexs][export][edge]") {
   std::string text = random_study(7);
   text.insert(text.find("\nrack"), "\nedges = { tip_rounding = 0.3 }");
