@@ -222,9 +222,9 @@ TEST_CASE("What is removed is drawn where it is removed, and normals point out o
     const auto corner = [&](std::size_t k) {
       return Eigen::Vector3d::Map(&surface.points[3 * static_cast<std::size_t>(surface.connectivity[4 * c + k])]);
     };
-    // The right flank of an upright tooth faces clockwise about the axis towards the eye, the left one counterclockwise.
+    // Out of the tooth, the right flank faces counterclockwise about z, the left one clockwise.
     const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(3) - corner(0)), around(-corner(0).y(), corner(0).x(), 0.0);
-    CHECK((normal.dot(around) < 0.0) == (flank == "right"));
+    CHECK((normal.dot(around) > 0.0) == (flank == "right"));
   }
 }
 
