@@ -8,7 +8,7 @@ function known_to_panel(plot, results, selection) {
   const estimated = shown.some((of) => is_number(quantity_in(summary, of, "_error")));
   const change = record(summary.te_convergence).harmonic_change_um;
   plot.append(facts([...rows, is_number(change) ? ["Twice the positions", `change the harmonics by at most ${fmt(change, 2)} µm`] : null,
-    estimated ? ["±", "estimated discretisation error"] : ["Discretisation", "its error was not estimated"]]));
+    estimated ? ["±", "estimated discretisation error"] : ["Discretisation", "its error was not estimated"], ...life_facts(results)]));
 }
 
 /** The quantity that a study asks about, in every load case; the governing case comes first. */

@@ -171,6 +171,42 @@ function life_table(body, life) {
   numbers_table("Loss, film and temperatures in numbers", "± is the estimated discretisation error where it is available.", of_oil);
 }
 
+/** Value and error of a design's worst load case or scene: [value, error, gear or null]; null where nothing is known. */
+function worst_of_life(entries, is_worse) {
+  const known = entries.filter(([value]) => is_number(value));
+  return known.length === 0 ? null : known.reduce((a, b) => (is_worse(b[0], a[0]) ? b : a));
+}
+
+/**
+ * The life of the final design for the first screen, with that before: damage over the spectrum, without one the least safety of flank and root; safety against
+ * micropitting and scuffing. Each is the worst over scenes, load cases and gears.
+ * @param said  names of outputs that the screen has elsewhere
+ */
+function life_facts(results, said = []) {
+  const life = record(results.life), cases = list(life.cases).map(record), spectra = list(life.spectra).map(record);
+  const last = ["after", "given"].find((design) => cases.some((of) => of.design === design));
+  const larger = (a, b) => a > b, smaller = (a, b) => a < b;
+  const sums = (part) => (design) => spectra.filter((of) => of.design === design)
+    .flatMap((of) => LIFE_GEARS.map((gear) => [record(record(of[gear])[part]).damage, record(record(of[gear])[part]).damage_error, gear]));
+  const of_gears = (key) => (design) => cases.filter((of) => of.design === design).flatMap((of) => LIFE_GEARS.map((gear) => [record(of[gear])[key], null, gear]));
+  const of_pair = (key) => (design) => cases.filter((of) => of.design === design).map((of) => [of[key], of[`${key}_error`], null]);
+  const row = (name, output, values, is_worse, is_bad) => {
+    const worst = last && !said.includes(output) ? worst_of_life(values(last), is_worse) : null;
+    if (!worst) return null;
+    const [value, error, gear] = worst, before = last === "after" ? worst_of_life(values("before"), is_worse) : null;
+    const shown = is_worse === larger && value < LEAST_DAMAGE ? `below ${power_of_ten(-6)}` : with_error(value, error, 3);
+    return [name, `${before ? `${fmt(before[0], 3)} → ` : ""}${shown}${gear ? `, ${gear}` : ""}`, is_bad(value) ? "bad" : null];
+  };
+  const has_sums = spectra.some((of) => of.design === last);
+  const fails = (value) => value > 1, too_small = (value) => value < 1;
+  return [
+    has_sums ? row("Damage of the flank", "contact_damage", sums("contact"), larger, fails) : row("Safety of the flank", "contact_safety", of_gears("contact_safety"), smaller, too_small),
+    has_sums ? row("Damage of the root", "root_damage", sums("root"), larger, fails) : row("Safety of the root", "root_safety", of_gears("root_safety"), smaller, too_small),
+    row("Safety against micropitting", "micropitting_safety", of_pair("micropitting_safety"), smaller, too_small),
+    row("Safety against scuffing", "scuffing_safety", of_pair("scuffing_safety"), smaller, too_small),
+  ].filter(Boolean);
+}
+
 function build_life(results, body, selection) {
   const life = record(results.life);
   const controls = el("div", { class: "controls" });

@@ -46,5 +46,6 @@ function gain_panel(plot, results) {
   const sentence = [scenes_sentence(scenes, label), rest > 0 ? `${rest} more below.` : null].filter(Boolean).join(" ");
   if (sentence) plot.append(el("p", { class: "fine" }, sentence));
   if (scatter) plot.append(el("p", { class: "fine" }, "The design is the one for the drawn gears. The listed scenes did not decide."));
-  plot.append(facts([...later_facts(optimise), ...constraint_facts(optimise)]));
+  const said = [optimise.objective_name, ...list(optimise.stages).map((stage) => record(stage).objective), ...constraint_rows(optimise).map((row) => row.name)];
+  plot.append(facts([...later_facts(optimise), ...constraint_facts(optimise), ...life_facts(results, said)]));
 }
