@@ -282,6 +282,8 @@ void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, 
     point.values = resolved_values(valued, front.objectives, analysis, cycles);
     DesignReport report = report_design(problem, analysis);
     resolve_report(problem, cycles, report);
+    point.constraint_values = report.constraint_values;
+    point.modification_values = report.modification_values;
     for (std::size_t c = 0; c < problem.task().constraints.size(); ++c)
       point.constraint_violation = std::max(point.constraint_violation, problem.task().constraints[c].excess(report.constraint_values[c]));
     return point;

@@ -171,11 +171,18 @@ Json front_json(const ParetoFront& front, const DesignTask& task) {
                               })},
           {"points", list(front.points,
                           [&](const ParetoPoint& point) -> Json {
-                            return {{"values", point.values},
-                                    {"variables", scaled_design_json(point.x, task)},
-                                    {"status", to_string(point.status)},
-                                    {"constraint_violation", point.constraint_violation},
-                                    {"dominated", point.dominated}};
+                            Json json{{"values", point.values},
+                                      {"variables", scaled_design_json(point.x, task)},
+                                      {"status", to_string(point.status)},
+                                      {"constraint_violation", point.constraint_violation},
+                                      {"dominated", point.dominated}};
+                            DesignReport report;
+                            report.constraint_values = point.constraint_values;
+                            report.modification_values = point.modification_values;
+                            const bool is_resolved = point.constraint_values.size() == task.constraints.size() &&
+                                                     point.modification_values.size() == task.modification_constraints.size();
+                            if (is_resolved) json["constraints"] = constraints_json(report, task);
+                            return json;
                           })},
           {"ideal", front.ideal},
           {"worst", front.worst},

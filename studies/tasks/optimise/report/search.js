@@ -34,12 +34,18 @@ function draw_front(plot, front, [across, up], height = 320) {
 function front_table(body, front, units) {
   const paths = Object.keys(record(record(list(front.points)[0]).variables));
   const limited = list(front.points).map(record).some((point) => beyond_limit(point) > 0);
+  const outputs = Object.entries(record(record(list(front.points)[0]).constraints)).map(([name, raw]) => ({ name, unit: record(raw).unit }));
+  const output_of = (point, name) => {
+    const { value, least, max } = record(record(point.constraints)[name]);
+    return (is_number(max) ? value : least ?? value) ?? null;
+  };
   table(body, {
     title: "Compromises",
     columns: [...list(front.objectives).map(record).map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit) })),
-      ...paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]) })), ...(limited ? [{ label: "Beyond a limit by", unit: "%" }] : [])],
+      ...paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]) })), ...outputs.map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit), digits: 4 })),
+      ...(limited ? [{ label: "Beyond a limit by", unit: "%" }] : [])],
     rows: list(front.points).map(record).map((point) => [...point.values, ...paths.map((path) => settled(point.variables[path], units[path])),
-      ...(limited ? [beyond_limit(point)] : [])]),
+      ...outputs.map(({ name }) => output_of(point, name)), ...(limited ? [beyond_limit(point)] : [])]),
   });
 }
 
@@ -49,11 +55,12 @@ function starts_tables(body, optimise, units) {
   if (starts.length === 0) return;
   const paths = Object.keys(record(starts[0].from));
   const of_variables = paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]), digits: 3 }));
+  const ends = starts.some((start) => start.status === "infeasible") ? "a local optimum, or in the least excess over the limits that it found" : "a local optimum";
   const bumpy = /sigma$/.test(optimise.over || "") ? " Mean + kσ has more local optima than the worst case, because it may fall where a single scene rises." : "";
   table(body, {
     title: "Where the searches started",
-    note: starts.length === 1 ? `One search was made, from the values of the file. It ends in a local optimum; more starts may find a better one.${bumpy}`
-      : `The first search starts from the values of the file, the others from a space-filling set. Each ends in a local optimum.${bumpy}`,
+    note: starts.length === 1 ? `One search was made, from the values of the file. It ends in ${ends}; more starts may find a better one.${bumpy}`
+      : `The first search starts from the values of the file, the others from a space-filling set. Each ends in ${ends}.${bumpy}`,
     columns: [{ label: "Start" }, ...of_variables, { label: "Ended at", unit }, { label: "Analyses" }, { label: "Status" }],
     rows: starts.map((start, i) => [i + 1, ...paths.map((path) => settled(record(start.from)[path], units[path])),
       start.objective ?? null, start.evaluations ?? null, words(start.status)]),
