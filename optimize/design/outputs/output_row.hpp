@@ -110,6 +110,7 @@ struct DesignOutput {
   Candidate candidate{nullptr};
   /// The power of a stress or load that it grows with, in rough terms, >= 1: searches see the root, since a power spans many decades.
   double growth{1.0};
+  double load_growth{1.0};    ///< likewise of the line load: half of it where Hertz' stress decides
   bool over_spectrum{false};  ///< a sum over all load cases of the spectrum, the same in each of them
   bool needs_oil{false};      ///< a lubricant and a speed
   bool of_roots{false};       ///< needs DesignTask::root_stress

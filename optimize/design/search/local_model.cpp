@@ -155,7 +155,7 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
       const double within = 1.0 - std::pow(1.0 - reach, output.growth);  // `reach` of the stress
       for (const PeakCandidate& candidate : peak.is_phasor ? components : leading_candidates(term, scene, within, most_candidates)) {
         const SmoothValue found = candidate_value(term, candidate, scene);
-        peak.candidates.push_back({factor * found.value, factor * slope_of(found.gradient), output.growth});
+        peak.candidates.push_back({factor * found.value, factor * slope_of(found.gradient), output.load_growth});
       }
       return peak;
     };

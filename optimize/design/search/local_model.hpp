@@ -49,7 +49,7 @@ const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task);
 ///
 /// At a kink of a peak one-sided derivatives follow by themselves; off it, a second candidate is seen before it is the
 /// largest. Candidates within `reach` of their peak take part. Linear in p are stresses, loads and differences of the transmission error themselves, the two
-/// components of a harmonic, and the n-th root of what grows with the n-th power of a stress (DesignOutput::growth):
+/// components of a harmonic, and the n-th root of what grows with the n-th power of a line load (DesignOutput::load_growth):
 ///
 ///     v(p) = v (1 + g . p / (n v))^n,   of a harmonic   v(p) = |c + C p|.
 class LocalModel {

@@ -76,7 +76,8 @@ function steepest_fact(optimise) {
   if (steps.length === 0 || !(after > 0)) return null;
   const { s, change, way } = steps.reduce((a, b) => (b.change > a.change ? b : a)), share = (100 * change) / after;
   const of = typeof optimise.assessed_design === "string" ? ` (of ${optimise.assessed_design})` : "";
-  return ["Worst small step", `${fmt(s.step, 3)} ${pretty_unit(s.unit)} ${way} ${words(s.name)}: +${fmt(change, 3)} ${pretty_unit(optimise.objective_unit)}, +${fmt(share, 2)} %${of}`,
+  const relative = share > 300 ? `${fmt(1 + share / 100, 2)} times as much` : `+${fmt(share, 2)} %`;
+  return ["Worst small step", `${fmt(s.step, 3)} ${pretty_unit(s.unit)} ${way} ${words(s.name)}: +${in_unit(fmt(change, 3), pretty_unit(optimise.objective_unit))}, ${relative}${of}`,
     share > 5 ? "bad" : null];
 }
 
