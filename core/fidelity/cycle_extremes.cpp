@@ -161,8 +161,8 @@ std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle&
   for (const bool is_start : {true, false}) {
     const double edge = is_start ? region.first : region.last, outwards = is_start ? -1.0 : 1.0;  // phase of A, of E
     int seen = 0;
-    double most = 0.0,
-           passage = not_given;  // of the flank within a spacing of the edge: its largest load, and when that point of the face passes the edge
+    // Of the flank within a spacing of the edge: its largest load, and when that point of the face passes the edge.
+    double most = 0.0, passage = not_given;
     for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
       const MeshPosition& at = model.positions[p];
       bool reaches = false;

@@ -149,7 +149,7 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
     };
     const auto peak_of = [&](const ObjectiveTerm& term, double factor, double limit) {
       const DesignOutput& output = design_output(term.output);
-      Peak peak{.candidates = {}, .is_phasor = output.has_orders, .sign = factor < 0.0 ? -1.0 : 1.0, .limit = limit};
+      Peak peak{.candidates = {}, .is_phasor = output.has_orders && !term.reciprocal, .sign = factor < 0.0 ? -1.0 : 1.0, .limit = limit};
       constexpr int right_angle = harmonic_directions / 4;
       const std::vector<PeakCandidate> components{{-1, 0}, {-1, right_angle}};
       const double within = 1.0 - std::pow(1.0 - reach, output.growth);  // `reach` of the stress
