@@ -25,8 +25,8 @@ GridLayout grid_layout(const std::string& points, double margin);
 /// A flank as points of a grid.
 struct GridTable {
   std::string text;  ///< as grid_file.hpp reads it, normal to the flank, + = metal added, with comments that say what it is
-  double departure{
-      0.0};  ///< of the surface through the points from the flank, at most, normal to it [mm]: a relief that starts between two lines is rounded
+  /// Of the surface through the points from the flank, at most, normal to it [mm]: a relief that starts between two lines is rounded.
+  double departure{0.0};
   std::string unreadable{};  ///< why a study cannot read it as modification.grid, without a departure then; empty: it can
 };
 
