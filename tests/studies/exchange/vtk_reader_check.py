@@ -51,7 +51,7 @@ def check_flank(data, geometry, member):
     for i, radius in enumerate(radii):
         x, y, _ = data.GetPoint(i)
         assert same(math.hypot(x - centre, y), radius), f"point {i} of the {member} is not at its radius"
-    assert same(max(radii), 0.5 * gear["tip_diameter_mm"])
+    assert same(max(radii), 0.5 * gear["tip_form_diameter_mm"])
     assert all(data.GetCell(i).GetNumberOfPoints() == 4 for i in range(data.GetNumberOfCells()))
     assert data.GetNumberOfCells() == len(values(data.GetCellData(), "tooth")) > 0
     return max(map(abs, values(data.GetPointData(), "removal_um")))
