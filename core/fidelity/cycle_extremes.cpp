@@ -79,12 +79,10 @@ class Search {
         if (promise.height > best(c) + slack_[c]) probes.insert(promise.x);
       }
       for (std::size_t c = edge_approaches; c < all_curves; ++c) {
-        // Where the edge carries already, its stress is sought as well: the approach tells of tops that are much higher than what is known. A promise beyond all
-        // samples is known to half of what it rises by.
-        constexpr double much = 1.05, unsure = 0.5;
+        // Where the edge carries already, its stress is sought as well: the approach tells of tops that are much higher than what is known.
+        constexpr double much = 1.05;
         const CurveRise promise = highest_promise(c);
-        const double rise = std::max(0.0, promise.height - best(c));
-        if (promise.height + unsure * rise > much * std::max(0.0, best(c))) probes.insert(promise.x);
+        if (promise.height > much * std::max(0.0, best(c))) probes.insert(promise.x);
       }
       std::erase_if(probes, [this](double phase) { return known_.contains(phase); });
       if (probes.empty()) break;

@@ -1,6 +1,5 @@
 #include "studies/analysis/case_life.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -99,7 +98,7 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
   }
 }
 
-/// From the same load case with half the points at every second position, by the rules of the cycle's own figures, and from the positions between its own.
+/// From the same load case with half the points at every second position, by the rules of the cycle's own figures.
 void add_errors(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, const CoarseCycle& coarse, CaseLife& of) {
   of.errors.loss_factor = mean_error(local_loss_factors(model, loaded.cycle), local_loss_factors(*coarse.mesh, coarse.cycle));
   of.errors.loss_power = of.friction * of.power * of.errors.loss_factor;
@@ -108,16 +107,9 @@ void add_errors(const MeshModel& model, const LifeModel& life, const LoadedResul
   const FilmCondition condition = condition_of_film(model, life, loaded, *oil);
   const FilmCurves fine = film_curves(model, loaded.cycle, *oil->lubricant, condition);
   const FilmCurves rough = film_curves(*coarse.mesh, coarse.cycle, *oil->lubricant, condition);
-  // What the positions between have beyond the cycle's own: those at which stress, load and edges peak.
-  double hotter = 0.0, thinner = 0.0;
-  if (loaded.resolved.extreme_mesh && loaded.resolved.extreme_cycle.usable()) {
-    const FilmCurves between = film_curves(*loaded.resolved.extreme_mesh, loaded.resolved.extreme_cycle, *oil->lubricant, condition);
-    hotter = std::max(0.0, std::ranges::max(between.flash) - of.flash_temperature);
-    thinner = std::max(0.0, std::ranges::max(between.thinness) - 1.0 / of.film);
-  }
-  of.errors.film = of.film * of.film * (peak_error(fine.thinness, rough.thinness) + thinner);  // the change of 1/x is x^-2 times that of x
+  of.errors.film = of.film * of.film * peak_error(fine.thinness, rough.thinness);  // the change of 1/x is x^-2 times that of x
   of.errors.micropitting_safety = of.errors.film / life.permissible_film;
-  of.errors.flash_temperature = of.errors.contact_temperature = peak_error(fine.flash, rough.flash) + hotter;
+  of.errors.flash_temperature = of.errors.contact_temperature = peak_error(fine.flash, rough.flash);
   of.errors.scuffing_safety = of.scuffing_safety * of.errors.contact_temperature / (of.contact_temperature - oil->temperature);
 }
 
