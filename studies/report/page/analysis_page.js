@@ -6,9 +6,10 @@ function known_to_panel(plot, results, selection) {
   const shown = QUANTITIES.filter((of) => of.is_headline && of.has_error && is_number(quantity_in(summary, of)));
   const rows = shown.map((of) => [capital(of.name), `${with_error(quantity_in(summary, of), quantity_in(summary, of, "_error"), 4)} ${of.unit}`]);
   const estimated = shown.some((of) => is_number(quantity_in(summary, of, "_error")));
-  const change = record(summary.te_convergence).harmonic_change_um;
+  const change = record(summary.te_convergence).harmonic_change_um, life = life_facts(results);
   plot.append(facts([...rows, is_number(change) ? ["Twice the positions", `change the harmonics by at most ${fmt(change, 2)} µm`] : null,
-    estimated ? ["±", "estimated discretisation error"] : ["Discretisation", "its error was not estimated"], ...life_facts(results)]));
+    estimated ? ["±", "estimated discretisation error"] : ["Discretisation", "its error was not estimated"],
+    ...(life.length > 0 ? [["Life", "the worst of all load cases:"], ...life] : [])]));
 }
 
 /** The quantity that a study asks about, in every load case; the governing case comes first. */
