@@ -222,8 +222,10 @@ double mean_error(const std::vector<double>& fine, const std::vector<double>& co
   return mean_error_by_points(d) + mean_error_by_positions(fine);
 }
 
-double peak_error(const std::vector<double>& fine, const std::vector<double>& coarse) {
-  return of_peaks * peak_difference(evenly_spaced(every(fine, fine.size() / coarse.size()), coarse), coarse.size()) + unseen_rise(fine);
+double peak_error(const PeakReadings& of) {
+  std::vector<Sample> samples = evenly_spaced(every(of.fine, of.fine.size() / of.coarse.size()), of.coarse);
+  for (std::size_t i = 0; i < of.between.size(); ++i) samples.push_back({of.between[i], of.fine_between[i], of.coarse_between[i]});
+  return of_peaks * peak_difference(samples, of.coarse.size()) + (std::isnan(of.unseen) ? unseen_rise(of.fine) : of.unseen);
 }
 
 CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,

@@ -55,9 +55,16 @@ CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& sum
 /// @param coarse  at coarse_phases() of them, with half the intervals
 double mean_error(const std::vector<double>& fine, const std::vector<double>& coarse);
 
-/// Likewise of its largest value over the positions, as estimate_errors() has it for the peak contact stress without a search for extremes.
-/// @param fine    >= 0
-double peak_error(const std::vector<double>& fine, const std::vector<double>& coarse);
+/// A reading of both cycles whose largest value counts.
+struct PeakReadings {
+  std::vector<double> fine, coarse;                      ///< at the positions, as for mean_error(); >= 0
+  std::vector<double> between{};                         ///< phases of extremes between the positions [base pitches]; empty: not known
+  std::vector<double> fine_between{}, coarse_between{};  ///< at these
+  double unseen{not_given};                              ///< by how much the largest value may still be larger after a search; NaN: it was not sought
+};
+
+/// Likewise of the largest value of a reading, as estimate_errors() has it for the peak contact stress.
+double peak_error(const PeakReadings& of);
 
 /// The errors by points of a cycle that is held against a finer one, with more intervals at the same positions: each is what the two differ by, and the finer
 /// one's own error, which estimate_errors() takes from the same difference; that of the transmission error is doubled, which makes the sum that of order one.

@@ -1,12 +1,12 @@
 #include "core/fidelity/cycle_extremes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 
 #include "core/fidelity/curve_rise.hpp"
+#include "core/fidelity/edge_approach.hpp"
 #include "core/rating/edge_contact_start.hpp"
 #include "core/rating/line_region.hpp"
 
@@ -16,36 +16,32 @@ namespace {
 
 /// Transmission error, the same turned over, contact stress, line load, stress on tip edges, their share of the load (0 without), which is
 /// not sought for itself: it peaks where the stress does.
-constexpr std::size_t curves = 6, sought = 5;
+constexpr std::size_t curves = 6;
 /// Behind them, how far the tip edge of either gear is pressed into its mate, see edge_approach().
-constexpr std::size_t edge_approaches = curves, all_curves = curves + 2;
-using Values = std::array<double, all_curves>;
+constexpr std::size_t edge_approaches = curves, own_curves = curves + 2;
+/// Of all curves: these, then the further readings of the search.
+using Values = std::vector<double>;
 
-/// How far a tip edge is pressed into its mate, where contact would be on it [mm]; below 0 the gap that is left. It runs smoothly through 0 where the stress on
-/// the edge begins. NaN where no point of the position lies beyond an edge of this gear.
-double edge_approach(const MeshPosition& at, const LoadedPosition& loaded, Member gear) {
-  double approach = not_given;
-  for (std::size_t i = 0; i < at.points.size() && !at.laws.empty(); ++i) {
-    const TipEdge& edge = at.points[i].tip_edge;
-    if (!at.laws[i].edge() || edge.gear != gear || edge.distance > 0.0) continue;
-    const auto point = static_cast<Eigen::Index>(i);
-    approach = std::fmax(approach, loaded.load.contact_deflection[point] - loaded.load.remaining_gap[point]);
-  }
-  return approach;
-}
-
-Values values_of(const MeshPosition& at, const LoadedPosition& loaded) {
+Values values_of(const MeshPosition& at, const LoadedPosition& loaded, const std::vector<PositionReading>& further) {
   const double te = loaded.load.transmission_error;
   const double on_edges = loaded.edge_stress.size() > 0 ? loaded.edge_stress.maxCoeff() : 0.0;
-  return {te,
-          -te,
-          loaded.contact_stress.maxCoeff(),
-          loaded.peak_load.maxCoeff(),
-          on_edges,
-          std::fmax(0.0, loaded.tip_edge_share),
-          edge_approach(at, loaded, Member::Pinion),
-          edge_approach(at, loaded, Member::Wheel)};
+  Values values{te,
+                -te,
+                loaded.contact_stress.maxCoeff(),
+                loaded.peak_load.maxCoeff(),
+                on_edges,
+                std::fmax(0.0, loaded.tip_edge_share),
+                edge_approach(at, loaded, Member::Pinion).approach,
+                edge_approach(at, loaded, Member::Wheel).approach};
+  for (const PositionReading& reading : further) values.push_back(reading(at, loaded));
+  return values;
 }
+
+/// A curve whose extreme is sought, and what the tolerance of the search is a share of.
+struct SoughtCurve {
+  std::size_t curve;
+  double scale;
+};
 
 /// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
 constexpr double shortest = 1e-4;
@@ -58,31 +54,32 @@ class Search {
   Search(const MeshModel& model, const MeshAt& mesh_at, const FlankCondition& condition, double torque, const LoadedCycle& cycle,
          const ExtremeSearch& settings)
       : mesh_at_(mesh_at), condition_(condition), torque_(torque), settings_(settings) {
-    double approach = 0.0;
     for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
       const LoadedPosition& position = cycle.positions[p];
-      known_[position.phase] = values_of(model.positions[p], position);
+      known_[position.phase] = values_of(model.positions[p], position, settings.further);
       even_.insert(position.phase);
-      approach += (position.load.transmission_error - position.gap.total.minCoeff()) / static_cast<double>(cycle.positions.size());
+      mean_deflection_ += (position.load.transmission_error - position.gap.total.minCoeff()) / static_cast<double>(cycle.positions.size());
     }
-    const double variation = std::max(best(0) + best(1), quiet_share * approach);
-    slack_ = {settings.tolerance * variation, settings.tolerance * variation, settings.tolerance * best(2), settings.tolerance * best(3),
-              settings.tolerance * best(2)};
+    const double variation = std::max(best(0) + best(1), quiet_share * mean_deflection_);
+    sought_ = {{0, variation}, {1, variation}, {2, best(2)}, {3, best(3)}, {4, best(2)}};
+    for (std::size_t i = 0; i < settings.further.size(); ++i) sought_.push_back({own_curves + i, best(own_curves + i)});
   }
 
   CycleExtremes run() {
     CycleExtremes found;
     std::set<double> probes(settings_.first.begin(), settings_.first.end());
     while (found.looked_at < settings_.most) {
-      for (std::size_t c = 0; c < sought; ++c) {
-        const CurveRise promise = highest_promise(c);
-        if (promise.height > best(c) + slack_[c]) probes.insert(promise.x);
+      for (const auto& [curve, scale] : sought_) {
+        const CurveRise promise = highest_promise(curve);
+        if (promise.height > best(curve) + settings_.tolerance * scale) probes.insert(promise.x);
       }
-      for (std::size_t c = edge_approaches; c < all_curves; ++c) {
-        // Where the edge carries already, its stress is sought as well: the approach tells of tops that are much higher than what is known.
-        constexpr double much = 1.05;
+      for (std::size_t c = edge_approaches; c < own_curves; ++c) {
+        // Where the edge carries already, its stress is sought as well: the approach tells of tops that are much higher than what is known. An edge
+        // that is about to touch within the tolerance of the search may touch at the next probe.
+        constexpr double much = 0.05;
+        const double near = settings_.tolerance * mean_deflection_, known = best(c);
         const CurveRise promise = highest_promise(c);
-        if (promise.height > much * std::max(0.0, best(c))) probes.insert(promise.x);
+        if (promise.height > std::fmax(-near, known + much * std::fmax(near, known))) probes.insert(promise.x);
       }
       std::erase_if(probes, [this](double phase) { return known_.contains(phase); });
       if (probes.empty()) break;
@@ -92,12 +89,16 @@ class Search {
       const LoadedCycle cycle = analyse_cycle(mesh, condition_, torque_, {}, RootStresses::Later);
       found.looked_at += static_cast<int>(phases.size());
       if (!cycle.usable()) break;
-      for (std::size_t i = 0; i < phases.size(); ++i) known_[phases[i]] = values_of(mesh.positions[i], cycle.positions[i]);
+      for (std::size_t i = 0; i < phases.size(); ++i) known_[phases[i]] = values_of(mesh.positions[i], cycle.positions[i], settings_.further);
     }
     std::set<double> phases;
-    for (std::size_t c = 0; c < curves; ++c) {
-      const double phase = std::ranges::max_element(known_, {}, [c](const auto& entry) { return entry.second[c]; })->first;
-      if (known_.at(phase)[c] == 0.0) continue;  // no tip edge is reached
+    for (std::size_t c = 0; c < own_curves + settings_.further.size(); ++c) {
+      const double highest = best(c);
+      const bool is_approach = c >= curves && c < own_curves;
+      // An edge that is about to touch is looked at with other intervals as well: they move it by less than this share of the mean deflection.
+      constexpr double about = 0.01;
+      if (is_approach ? !(highest <= 0.0 && highest > -about * mean_deflection_) : highest == 0.0) continue;  // 0: no tip edge is reached
+      const double phase = std::ranges::find_if(known_, [&](const auto& entry) { return entry.second[c] == highest; })->first;
       if (!even_.contains(phase)) phases.insert(phase);
     }
     found.phases.assign(phases.begin(), phases.end());
@@ -108,6 +109,9 @@ class Search {
     unseen(Figure::PeakLineLoad) = rise(3);
     found.unseen_edge_stress = rise(4);
     found.unseen_edge_share = rise(5);
+    const auto highest = [&](std::size_t c) { return std::fmax(best(c), highest_promise(c).height); };
+    found.edge_approach = {highest(edge_approaches), highest(edge_approaches + 1)};
+    for (std::size_t i = 0; i < settings_.further.size(); ++i) found.unseen_further.push_back(rise(own_curves + i));
     return found;
   }
 
@@ -144,7 +148,8 @@ class Search {
   const ExtremeSearch& settings_;
   std::map<double, Values> known_;  ///< by phase
   std::set<double> even_;           ///< phases of the cycle itself
-  std::array<double, sought> slack_{};
+  std::vector<SoughtCurve> sought_;
+  double mean_deflection_{0.0};  ///< [mm]
 };
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/rating/contact_peaks.hpp"
@@ -7,23 +8,31 @@
 
 namespace flankwright {
 
+/// A reading of a loaded mesh position whose largest value over the cycle is sought beside the cycle's own figures, such as its highest flash temperature; >= 0.
+using PositionReading = std::function<double(const MeshPosition&, const LoadedPosition&)>;
+
 struct ExtremeSearch {
   /// Located where no interval between positions looks as if the extreme rose by more than this [-], > 0: of the peak to peak (at least
-  /// quiet_share of the mean deflection) for the transmission error, of the peak for stress and line load, of the peak contact stress for the stress on tip edges.
+  /// quiet_share of the mean deflection) for the transmission error, of the peak for stress, line load and further readings, of the peak contact stress for the stress on tip edges.
   /// Their share of the load is read where these are sought.
   double tolerance{2e-3};
   int most{32};                 ///< positions looked at before the search gives up, >= 1
   std::vector<double> first{};  ///< positions looked at before all others [base pitches], 0 .. 1, see tip_edge_passages()
+  std::vector<PositionReading> further{};
 };
 
 /// A cycle's extremes between its positions: each of these positions has the largest or smallest transmission error,
-/// the largest contact stress, the largest line load, the largest stress on tip edges or their largest share of the load of all that were solved.
+/// the largest contact stress, the largest line load, the largest stress on tip edges, their largest share of the load or the largest of a further reading of all that were solved, or
+/// its tip edge is nearest to touching, by less than 1 % of the mean deflection.
 struct CycleExtremes {
   std::vector<double> phases;      ///< [base pitches], rising; empty where the cycle's own positions have all extremes
   PerFigure unseen{};              ///< by how much extremes may still be larger, in the figures' units; 0 for what is no extreme
   double unseen_edge_stress{0.0};  ///< likewise of the stress on tip edges [MPa]
   double unseen_edge_share{0.0};   ///< likewise of their share of the load [-]
-  int looked_at{0};                ///< positions solved
+  PerGear<double> edge_approach{not_given,
+                                not_given};  ///< to which the edges of either gear may come, see EdgeApproach [mm]; NaN: no point lies beyond one
+  std::vector<double> unseen_further;        ///< likewise of the further readings, in their units
+  int looked_at{0};                          ///< positions solved
 };
 
 /// Phases before A and after E at which a tip edge may carry load between two positions of a cycle. On spur gears a whole line passes the edge at once, and the edge
@@ -40,7 +49,7 @@ std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle&
 /// or by the slope extrapolated from the last two secants, whichever is steeper: curves grow steeper towards a kink. On
 /// a smooth top, such as that of a load that passes a corner of the face, a parabola through three neighbours is taken. Beside a position that is
 /// alone on its piece the curve may go on rising, see rise_between(). Stress on a tip edge begins steeply, perhaps between two positions without any. There the
-/// gap that is left between the edge and its mate is continued in the same way, and looked at where it seems to close.
+/// gap that is left between the edge and its mate is continued in the same way, and looked at where it seems to close to less than the tolerance of the mean deflection.
 /// The most promising phase is solved next. On a kink both meet near the extreme itself, so that two or three positions
 /// a curve are enough.
 /// @param model    of the cycle

@@ -1,7 +1,9 @@
 #include "core/fidelity/resolved_cycle.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/fidelity/peak_reading.hpp"
+#include "core/gear/both_gears.hpp"
 
 namespace flankwright {
 
@@ -41,7 +43,7 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
   if (!cycle.usable() || !(cycle.force > 0.0)) return resolved;
   const MeshAt without_parameters = [&](const std::vector<double>& phases) { return mesh_at(phases, {}); };
   if (resolving.seek_extremes) {
-    const ExtremeSearch search{.first = tip_edge_passages(model, cycle)};
+    const ExtremeSearch search{.first = tip_edge_passages(model, cycle), .further = resolving.further};
     resolved.extremes = locate_extremes(model, without_parameters, condition, pinion_torque, cycle, search);
   }
   if (!resolved.extremes.phases.empty()) {
@@ -50,16 +52,35 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
     resolved.extreme_mesh = mesh;
     include(model, cycle, resolved.extreme_cycle, resolved.summary);
   }
+  MeshModel coarse_between;
+  LoadedCycle coarse;
+  CyclesBetween between;
   if (resolving.coarse != nullptr) {
-    LoadedCycle coarse;
-    CyclesBetween between;
     if (resolving.coarse_at && resolved.extreme_mesh) {
-      coarse = analyse_cycle(resolving.coarse_at(resolved.extremes.phases), condition, pinion_torque, {}, RootStresses::Later);
+      coarse_between = resolving.coarse_at(resolved.extremes.phases);
+      coarse = analyse_cycle(coarse_between, condition, pinion_torque, {}, RootStresses::Later);
       if (coarse.usable() && resolved.extreme_cycle.usable()) between = {&resolved.extreme_cycle, &coarse};
     }
     const CycleExtremes* const sought = resolving.seek_extremes ? &resolved.extremes : nullptr;
     resolved.error_parts = estimate_errors(cycle, resolved.summary, *resolving.coarse, sought, between);
     resolved.errors = resolved.error_parts.sum();
+  }
+  SolvedCycles of{.fine = {&model, &cycle}};
+  if (resolved.extreme_mesh) of.fine_between = {resolved.extreme_mesh.get(), &resolved.extreme_cycle};
+  if (resolving.coarse != nullptr && resolving.coarse_model != nullptr && resolving.coarse->usable())
+    of.coarse = {resolving.coarse_model, resolving.coarse};
+  if (between.coarse != nullptr) of.coarse_between = {&coarse_between, between.coarse};
+  if (resolved.errors.edge_stress == 0.0 && resolved.summary.edge_stress == 0.0 && of.coarse.cycle != nullptr && resolving.seek_extremes) {
+    // By positions, because finer intervals at the same positions may see no more.
+    for (const Member gear : both_gears) {
+      const double error = untouched_edge_error(of, resolved.extremes, gear);
+      resolved.error_parts.positions.edge_stress = std::max(resolved.error_parts.positions.edge_stress, error);
+    }
+    resolved.errors = resolved.error_parts.sum();
+  }
+  for (std::size_t i = 0; i < resolving.further.size(); ++i) {
+    const std::vector<double>& unseen = resolved.extremes.unseen_further;
+    resolved.further.push_back(peak_of(resolving.further[i], of, resolved.extremes.phases, i < unseen.size() ? unseen[i] : not_given));
   }
   return resolved;
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/fidelity/cycle_error.hpp"
+#include "core/fidelity/peak_reading.hpp"
 #include "core/load/cycle/cycle_gradient.hpp"
 
 namespace flankwright {
@@ -13,6 +14,7 @@ struct ResolvedCycle {
   CycleErrorParts error_parts;  ///< NaN where no coarser cycle was given
   CycleErrors errors;           ///< their sum
   CycleExtremes extremes;
+  std::vector<PeakReading> further;               ///< of CycleResolving::further
   std::shared_ptr<const MeshModel> extreme_mesh;  ///< at extremes.phases, without root stress; null where there are none
   LoadedCycle extreme_cycle;                      ///< of it
 };
@@ -22,9 +24,11 @@ using MeshWithParameters = std::function<MeshModel(const std::vector<double>& ph
 
 /// What is resolved beyond the positions of a cycle.
 struct CycleResolving {
-  bool seek_extremes{true};            ///< false: extremes are those of the positions
-  const LoadedCycle* coarse{nullptr};  ///< at coarse_phases() or at all phases of the cycle, with fewer intervals; null: no error is estimated
-  MeshAt coarse_at{};                  ///< the mesh of `coarse` at other phases; empty: both are compared at the positions alone
+  bool seek_extremes{true};                ///< false: extremes are those of the positions
+  const LoadedCycle* coarse{nullptr};      ///< at coarse_phases() or at all phases of the cycle, with fewer intervals; null: no error is estimated
+  const MeshModel* coarse_model{nullptr};  ///< of `coarse`; null: no error of further readings is estimated
+  MeshAt coarse_at{};                      ///< the mesh of `coarse` at other phases; empty: both are compared at the positions alone
+  std::vector<PositionReading> further{};  ///< whose largest values are sought as well
 };
 
 /// Seeks the extremes of a solved cycle and holds it against a coarser one.

@@ -9,44 +9,11 @@
 #include "core/rating/contact_temperature.hpp"
 #include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
+#include "studies/analysis/film_readings.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-/// The oil of a load case, as far as it is known.
-struct Oil {
-  const Lubricant* lubricant;
-  double temperature, roughness;
-};
-
-std::optional<Oil> oil_of(const LifeModel& life, const LoadedResult& loaded) {
-  if (!life.lubricant) return std::nullopt;
-  const double temperature = std::isnan(loaded.operation.temperature) ? life.lubricant->temperature : loaded.operation.temperature;
-  return Oil{&*life.lubricant, temperature, life.roughness};
-}
-
-/// Largest flash temperature, and the reciprocal of the least specific film thickness, at each position.
-struct FilmCurves {
-  std::vector<double> flash, thinness;
-};
-
-/// A position without a loaded point has neither.
-FilmCurves film_curves(const MeshModel& model, const LoadedCycle& cycle, const Lubricant& lubricant, const FilmCondition& condition) {
-  FilmCurves curves;
-  for (std::size_t i = 0; i < model.positions.size(); ++i) {
-    const Eigen::VectorXd& load = cycle.positions[i].load.line_load;
-    double flash = 0.0, thinness = 0.0;
-    for (Eigen::Index j = 0; j < load.size(); ++j) {
-      const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
-      flash = std::fmax(flash, local_temperature(model.pair, model.contact_modulus, point, load[j], condition).flash);
-      thinness = std::fmax(thinness, 1.0 / local_film(model.pair, model.contact_modulus, point, load[j], lubricant, condition).ratio);
-    }
-    curves.flash.push_back(flash);
-    curves.thinness.push_back(thinness);
-  }
-  return curves;
-}
 
 void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
   of.loss_factor = local_loss_factor(model, loaded.cycle).value;
@@ -54,34 +21,22 @@ void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult&
   if (!(speed > 0.0)) return;
   constexpr double watt = 1e3;  // N mm/s
   of.power = loaded.torque * speed / watt;
-  const std::optional<Oil> oil = oil_of(life, loaded);
+  const std::optional<Oil> oil = oil_of(life, loaded.operation);
   if (!oil) return;
   of.friction = schlenk_friction(model.pair, model.face_width, loaded.cycle.force, speed, *oil->lubricant, oil->temperature, oil->roughness);
   of.loss_power = of.friction * of.loss_factor * of.power;
 }
 
-FilmCondition condition_of_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, const Oil& oil) {
-  const FilmCondition given{.speed = loaded.operation.speed,
-                            .oil_temperature = oil.temperature,
-                            .bulk_temperature = life.bulk_temperature,
-                            .roughness = oil.roughness,
-                            .overload = loaded.operation.overload()};
-  return film_condition(model.pair, model.face_width, loaded.cycle.force, *oil.lubricant, given);
-}
-
-/// Film and temperatures of all points.
-void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
-  const std::optional<Oil> oil = oil_of(life, loaded);
-  if (!oil || !(loaded.operation.speed > 0.0)) return;
-  const FilmCondition condition = condition_of_film(model, life, loaded, *oil);
-  of.film_friction = condition.friction;
-  of.bulk_temperature = condition.bulk_temperature;
+/// Takes the extremes of one cycle's points.
+/// @param film, flash  where the values at the points of each position are kept
+void add_film_of(const MeshModel& model, const LoadedCycle& cycle, const Lubricant& lubricant, const FilmCondition& condition,
+                 std::vector<Eigen::VectorXd>& films, std::vector<Eigen::VectorXd>& flashes, CaseLife& of) {
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
-    const Eigen::VectorXd& load = loaded.cycle.positions[i].load.line_load;
-    Eigen::VectorXd &flash = of.flash.emplace_back(load.size()), &film = of.film_at_points.emplace_back(load.size());
+    const Eigen::VectorXd& load = cycle.positions[i].load.line_load;
+    Eigen::VectorXd &flash = flashes.emplace_back(load.size()), &film = films.emplace_back(load.size());
     for (Eigen::Index j = 0; j < load.size(); ++j) {
       const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
-      film[j] = local_film(model.pair, model.contact_modulus, point, load[j], *oil->lubricant, condition).ratio;
+      film[j] = local_film(model.pair, model.contact_modulus, point, load[j], lubricant, condition).ratio;
       of.film = std::fmin(of.film, film[j]);
       const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, point, load[j], condition);
       flash[j] = local.flash;
@@ -92,25 +47,34 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
       of.hottest_pinion_radius = point.pinion_radius;
     }
   }
-  of.micropitting_safety = of.film / life.permissible_film;
-  if (of.contact_temperature > oil->temperature) {
-    of.scuffing_safety = scuffing_safety(life.scuffing_temperature, of.contact_temperature, oil->temperature);
+}
+
+/// Film and temperatures of all points, and their extremes between the positions.
+void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
+  const std::optional<FilmCondition> condition = film_condition_of(model, life, loaded.operation, loaded.cycle.force);
+  if (!condition) return;
+  of.film_friction = condition->friction;
+  of.bulk_temperature = condition->bulk_temperature;
+  add_film_of(model, loaded.cycle, *life.lubricant, *condition, of.film_at_points, of.flash, of);
+  if (loaded.resolved.extreme_mesh) {
+    std::vector<Eigen::VectorXd> films, flashes;  // of positions that are not shown
+    add_film_of(*loaded.resolved.extreme_mesh, loaded.resolved.extreme_cycle, *life.lubricant, *condition, films, flashes, of);
   }
+  of.micropitting_safety = of.film / life.permissible_film;
+  if (of.contact_temperature > condition->oil_temperature)
+    of.scuffing_safety = scuffing_safety(life.scuffing_temperature, of.contact_temperature, condition->oil_temperature);
+  if (loaded.resolved.further.empty()) return;
+  CaseLifeErrors& errors = of.errors;
+  errors.film = of.film * of.film * loaded.resolved.further[FilmReadings::thinness].error;  // the change of 1/x is x^-2 times that of x
+  errors.micropitting_safety = errors.film / life.permissible_film;
+  errors.flash_temperature = errors.contact_temperature = loaded.resolved.further[FilmReadings::flash].error;
+  errors.scuffing_safety = of.scuffing_safety * errors.contact_temperature / (of.contact_temperature - condition->oil_temperature);
 }
 
 /// From the same load case with half the points at every second position, by the rules of the cycle's own figures.
-void add_errors(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, const CoarseCycle& coarse, CaseLife& of) {
+void add_loss_errors(const MeshModel& model, const LoadedResult& loaded, const CoarseCycle& coarse, CaseLife& of) {
   of.errors.loss_factor = mean_error(local_loss_factors(model, loaded.cycle), local_loss_factors(*coarse.mesh, coarse.cycle));
   of.errors.loss_power = of.friction * of.power * of.errors.loss_factor;
-  const std::optional<Oil> oil = oil_of(life, loaded);
-  if (!oil || !(loaded.operation.speed > 0.0)) return;
-  const FilmCondition condition = condition_of_film(model, life, loaded, *oil);
-  const FilmCurves fine = film_curves(model, loaded.cycle, *oil->lubricant, condition);
-  const FilmCurves rough = film_curves(*coarse.mesh, coarse.cycle, *oil->lubricant, condition);
-  of.errors.film = of.film * of.film * peak_error(fine.thinness, rough.thinness);  // the change of 1/x is x^-2 times that of x
-  of.errors.micropitting_safety = of.errors.film / life.permissible_film;
-  of.errors.flash_temperature = of.errors.contact_temperature = peak_error(fine.flash, rough.flash);
-  of.errors.scuffing_safety = of.scuffing_safety * of.errors.contact_temperature / (of.contact_temperature - oil->temperature);
 }
 
 /// What a curve allows in a load case over a stress, as it acts.
@@ -150,7 +114,7 @@ CaseLife case_life(const MeshModel& model, const LifeModel& life, const LoadedRe
   add_loss(model, life, loaded, of);
   add_film(model, life, loaded, of);
   add_safety(model, life, loaded, of);
-  if (coarse != nullptr) add_errors(model, life, loaded, *coarse, of);
+  if (coarse != nullptr) add_loss_errors(model, loaded, *coarse, of);
   return of;
 }
 

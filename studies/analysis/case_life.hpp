@@ -11,9 +11,9 @@ struct CoarseCycle {
 };
 
 /// Loss, film, temperatures and safeties of one load case, without damage, which is a sum over a spectrum. Stresses of safeties are those of
-/// LoadedResult::summary.
+/// LoadedResult::summary, film and temperatures of its positions and of LoadedResult::resolved between them.
 /// @param loaded  usable; its rating, where it has one, gives the load factors of ISO 6336
-/// @param coarse  for the errors of loss, film and temperatures; null: they are not estimated
+/// @param coarse  for the errors of the loss; null: they are not estimated. Those of film and temperatures are in LoadedResult::resolved
 CaseLife case_life(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, const CoarseCycle* coarse = nullptr);
 
 }  // namespace flankwright::studies

@@ -8,7 +8,9 @@
 
 #include "core/fidelity/resolved_analysis.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
+#include "studies/analysis/film_readings.hpp"
 #include "studies/analysis/study_run.hpp"
+#include "studies/study_file/study_life.hpp"
 
 namespace flankwright::studies {
 
@@ -87,6 +89,7 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
   std::vector<MeshPlacement> placements;
   for (const SolvedCase& of : cases) placements.push_back(placement_of(of.scene.condition, of.scene.torque));
   const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(placements) : std::vector<const MeshModel*>(cases.size(), nullptr);
+  const std::shared_ptr<const LifeModel> life = life_model(results_.study);
   std::vector<ResolvedCycle> all(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
@@ -97,7 +100,9 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
     if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
     const CycleResolving resolving{.seek_extremes = seeks_extremes(results_.study),
                                    .coarse = coarse_cycle ? &*coarse_cycle : nullptr,
-                                   .coarse_at = mesh_at(scene.condition, scene.torque, true, {}, halved(results_.study.fidelity.quadrature))};
+                                   .coarse_model = coarse[i],
+                                   .coarse_at = mesh_at(scene.condition, scene.torque, true, {}, halved(results_.study.fidelity.quadrature)),
+                                   .further = life ? film_readings(*model, *life, scene.operation, cycle->force) : std::vector<PositionReading>()};
     all[i] = resolve_cycle(*model, *cycle, at, scene.condition, scene.torque, resolving, gradient_parameters());
   });
   return all;

@@ -106,7 +106,12 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene
     found.value = entry.of(entry.quantity->values(resolved.summary));
     if (entry.quantity->errors != nullptr) found.error = entry.of(entry.quantity->errors(resolved.errors));
   }
-  if (std::isnan(found.value)) found.value = output_value(term, scene);
+  if (!std::isnan(found.value)) return found;
+  const DesignOutput& row = design_output(term.output);
+  found.value = output_value(term, scene);
+  if (!row.needs_oil || !resolved.extreme_mesh) return found;
+  const double between = output_value(term, {*resolved.extreme_mesh, resolved.extreme_cycle, scene.operation, scene.life});
+  found.value = row.is_least ? std::min(found.value, between) : std::max(found.value, between);
   return found;
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/stopwatch.hpp"
 #include "optimize/assessment/usual_signs.hpp"
 #include "optimize/design/between_positions.hpp"
+#include "optimize/design/grinding/grindable_design.hpp"
 #include "optimize/design/more_intervals.hpp"
 #include "optimize/design/resolved_design.hpp"
 #include "optimize/design/spare_limits.hpp"
@@ -142,11 +143,21 @@ void OptimiseSearch::take_more_positions(DesignProblem& problem, const DesignOpt
     const bool infeasible = found.design.status == SolverStatus::Infeasible;  // then it is the excess that was searched for
     if (!rises_between_positions(best, shown_between_positions(problem, best), infeasible)) return;
     const Eigen::VectorXd x = start_at(problem, best);
+    if (!infeasible && grinds_without_rise(problem, options, x, found)) return;
     run_.set_positions(2 * cycle.positions);
     go_on_at_resolution(problem, options, x, found);
     found.fine.seconds += clock.seconds();
     found.design.seconds = seconds + clock.seconds();
   }
+}
+
+bool OptimiseSearch::grinds_without_rise(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found) {
+  const int analyses = problem.analyses();
+  const DesignToGrind to_grind = design_to_grind(problem, x, left_of(options.solver, found.design));
+  const DesignReport ground = report_design(problem, problem.analyse(to_grind.x, false));
+  found.design.evaluations += problem.analyses() - analyses + to_grind.choice_analyses;
+  found.design.failures += to_grind.failures;
+  return to_grind.is_changed && is_usable(ground) && !rises_between_positions(ground, shown_between_positions(problem, ground), false);
 }
 
 std::vector<double> OptimiseSearch::take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {

@@ -9,6 +9,7 @@
 #include "core/gear/both_gears.hpp"
 #include "core/rating/shaft_misalignment.hpp"
 #include "studies/analysis/case_life.hpp"
+#include "studies/analysis/film_readings.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/study_file/scene_placement.hpp"
@@ -167,7 +168,10 @@ std::vector<double> SampleAnalysis::case_outputs(SampleCase& of, const SweptCond
   };
   const MeshAt mesh_at = is_nominal ? memory_.remembering(made_at) : made_at;
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
-  loaded.summary = resolve_cycle(model, loaded.cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
+  CycleResolving resolving{.seek_extremes = seeks_extremes(study)};
+  if (life_ != nullptr) resolving.further = film_readings(model, *life_, loaded.operation, loaded.cycle.force);
+  loaded.resolved = resolve_cycle(model, loaded.cycle, at, condition, torque, resolving);
+  loaded.summary = loaded.resolved.summary;
   const double by_shafts = nominal_.shafts ? shaft_misalignment(shafts_under(*nominal_.shafts, model, torque), model, loaded.cycle) : 0.0;
   const IsoDeviations deviations = iso_deviations(model.pair, condition, by_shafts + rim_opening(nominal_, model, torque));
   loaded.iso = iso_load_factors(model.pair, model.iso, deviations, torque, model.face_width);

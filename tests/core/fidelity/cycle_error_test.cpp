@@ -85,7 +85,7 @@ TEST_CASE("The error of a mean and of a peak covers what a kinked curve's sample
   double mean = 0.0;
   for (const double value : fine) mean += value / positions;
   CAPTURE(shift, points, positions);
-  const double of_mean = mean_error(fine, coarse), of_peak = peak_error(fine, coarse);
+  const double of_mean = mean_error(fine, coarse), of_peak = peak_error({fine, coarse});
   CHECK(std::abs(mean - (1.0 + 2.0 * a / units::pi)) <= 2.0 * of_mean);  // the share of a mean by points is that of order two
   CHECK(std::abs(*std::ranges::max_element(fine) - (1.0 + a)) <= of_peak);
   CHECK(of_mean <= 0.5 * points + 0.1 * a);

@@ -1,0 +1,52 @@
+#include "core/fidelity/peak_reading.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fidelity/cycle_error.hpp"
+#include "core/fidelity/edge_approach.hpp"
+
+namespace flankwright {
+
+PeakReading peak_of(const PositionReading& reading, const SolvedCycles& of, const std::vector<double>& extremes, double unseen) {
+  PeakReadings all{of.fine.readings(reading), of.coarse.readings(reading)};
+  all.unseen = unseen;
+  const std::vector<double> between = of.fine_between.readings(reading);
+  PeakReading peak{std::ranges::max(all.fine), not_given};
+  for (const double value : between) peak.value = std::max(peak.value, value);
+  if (all.coarse.empty()) return peak;
+  if (of.coarse_between.cycle != nullptr) {
+    all.between = extremes;
+    all.fine_between = between;
+    all.coarse_between = of.coarse_between.readings(reading);
+  }
+  peak.error = peak_error(all);
+  return peak;
+}
+
+double untouched_edge_error(const SolvedCycles& of, const CycleExtremes& extremes, Member gear) {
+  // Raised by the mean deflection, a peak of the approach can be treated as one of stress.
+  double deflection = 0.0;
+  for (const LoadedPosition& position : of.fine.cycle->positions)
+    deflection += (position.load.transmission_error - position.gap.total.minCoeff()) / static_cast<double>(of.fine.cycle->positions.size());
+  const PositionReading raised = [&](const MeshPosition& at, const LoadedPosition& loaded) {
+    return std::fmax(0.0, edge_approach(at, loaded, gear).approach + deflection);
+  };
+  const double reach = extremes.edge_approach[gear] + peak_of(raised, of, extremes.phases, 0.0).error;
+  if (!(reach > 0.0)) return 0.0;
+  EdgeApproach nearest;
+  const MeshPosition* at = nullptr;
+  const LoadedPosition* loaded = nullptr;
+  for (const SolvedCycle& solved : {of.fine, of.fine_between}) {
+    for (std::size_t i = 0; solved.cycle != nullptr && i < solved.cycle->positions.size(); ++i) {
+      const EdgeApproach edge = edge_approach(solved.model->positions[i], solved.cycle->positions[i], gear);
+      if (edge.point < 0 || edge.approach <= nearest.approach) continue;
+      nearest = edge;
+      at = &solved.model->positions[i];
+      loaded = &solved.cycle->positions[i];
+    }
+  }
+  return at == nullptr ? 0.0 : edge_pressure_at(*at, *loaded, nearest, reach);
+}
+
+}  // namespace flankwright

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "core/fidelity/cycle_extremes.hpp"
+
+namespace flankwright {
+
+/// The largest value of a reading over positions and extremes, and its estimated error, in its own unit.
+struct PeakReading {
+  double value{not_given}, error{not_given};  ///< >= 0; NaN: not estimated
+};
+
+/// A solved cycle and its mesh; null: there is none.
+struct SolvedCycle {
+  const MeshModel* model{nullptr};
+  const LoadedCycle* cycle{nullptr};
+
+  /// Of every position; empty where there is no cycle.
+  std::vector<double> readings(const PositionReading& reading) const {
+    std::vector<double> all;
+    for (std::size_t i = 0; cycle != nullptr && i < cycle->positions.size(); ++i) all.push_back(reading(model->positions[i], cycle->positions[i]));
+    return all;
+  }
+};
+
+/// A load case at its positions and at its extremes between them, by the intervals of the study and by fewer.
+struct SolvedCycles {
+  SolvedCycle fine{}, coarse{}, fine_between{}, coarse_between{};
+};
+
+/// @param extremes  phases of both cycles between the positions [base pitches]
+/// @param unseen    by the search for extremes; NaN: there was none
+PeakReading peak_of(const PositionReading& reading, const SolvedCycles& of, const std::vector<double>& extremes, double unseen);
+
+/// The pressure that an edge of this gear would have, at the point nearest to its mate, if it were pressed in as far as search and points do not rule out, where none is seen to
+/// touch: 0 where it stays clear [MPa]. It grows as the square root of the approach, so that a small one decides.
+/// @param extremes  of the load case, after a search
+double untouched_edge_error(const SolvedCycles& of, const CycleExtremes& extremes, Member gear);
+
+}  // namespace flankwright
