@@ -7,6 +7,7 @@
 
 #include "core/fidelity/curve_rise.hpp"
 #include "core/fidelity/edge_approach.hpp"
+#include "core/gear/both_gears.hpp"
 #include "core/rating/edge_contact_start.hpp"
 #include "core/rating/line_region.hpp"
 
@@ -14,55 +15,140 @@ namespace flankwright {
 
 namespace {
 
-/// Transmission error, the same turned over, contact stress, line load, stress on tip edges, their share of the load (0 without), which is
-/// not sought for itself: it peaks where the stress does.
-constexpr std::size_t curves = 6;
-/// Behind them, how far the tip edge of either gear is pressed into its mate, see edge_approach().
-constexpr std::size_t edge_approaches = curves, own_curves = curves + 2;
-/// Of all curves: these, then the further readings of the search.
-using Values = std::vector<double>;
-
-Values values_of(const MeshPosition& at, const LoadedPosition& loaded, const std::vector<PositionReading>& further) {
-  const double te = loaded.load.transmission_error;
-  const double on_edges = loaded.edge_stress.size() > 0 ? loaded.edge_stress.maxCoeff() : 0.0;
-  Values values{te,
-                -te,
-                loaded.contact_stress.maxCoeff(),
-                loaded.peak_load.maxCoeff(),
-                on_edges,
-                std::fmax(0.0, loaded.tip_edge_share),
-                edge_approach(at, loaded, Member::Pinion).approach,
-                edge_approach(at, loaded, Member::Wheel).approach};
-  for (const PositionReading& reading : further) values.push_back(reading(at, loaded));
-  return values;
-}
-
-/// A curve whose extreme is sought, and what the tolerance of the search is a share of.
-struct SoughtCurve {
-  std::size_t curve;
-  double scale;
-};
-
 /// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
 constexpr double shortest = 1e-4;
 /// A probe lies at one of the divisions of its interval into so many parts: not near either end, because secants of a short and a long interval are
 /// not alike, and where searches of other conditions have probed as well, which have kinks at the same phases: their meshes can be used again.
 constexpr int parts = 8;
 
+/// A phase within one pitch, without the round-off that would make two meshes of one.
+double in_pitch(double phase) {
+  constexpr double grid = 0x1p-30;
+  const double rounded = grid * std::round(phase / grid);
+  return rounded - std::floor(rounded);
+}
+
+/// The samples of one reading.
+class Curve {
+ public:
+  /// Of the whole mesh: it repeats with every base pitch.
+  Curve() = default;
+  /// Of one tooth pair, by the phase of its line. What several pairs have would hide the one that is about to have more.
+  /// @param outside  before its line enters, and after it has left
+  static Curve of_pair(double outside) {
+    Curve curve;
+    curve.outside_ = outside;
+    curve.repeats_ = false;
+    return curve;
+  }
+
+  /// @param x      of the line of the pair, or `phase`
+  /// @param phase  of the mesh position
+  void add(double x, double phase, double value) { samples_[x] = {phase, value}; }
+
+  /// NaN where no sample has a value.
+  double best() const {
+    double largest = not_given;
+    for (const auto& [x, sample] : samples_) largest = std::fmax(largest, sample.value);
+    return largest;
+  }
+
+  double phase_of_best() const {
+    const double largest = best();
+    return std::ranges::find_if(samples_, [&](const auto& entry) { return entry.second.value == largest; })->second.phase;
+  }
+
+  /// Over all intervals; within one pitch, at the division of its interval that is nearest.
+  /// @param spacing  of the positions of the cycle
+  CurveRise highest_promise(double spacing) const {
+    const std::vector<CurveSample> curve = with_ends(spacing);
+    CurveRise highest;
+    for (std::size_t left = 3; left + 4 < curve.size(); ++left) {
+      const double from = curve[left].x, length = curve[left + 1].x - from;
+      if (length <= shortest) continue;
+      const CurveRise rise = rise_between(curve, left);
+      if (!(rise.height > highest.height)) continue;
+      const double way = std::clamp(std::round(parts * (rise.x - from) / length), 1.0, parts - 1.0) / parts;
+      highest = {rise.height, in_pitch(from + way * length)};
+    }
+    return highest;
+  }
+
+ private:
+  struct Sample {
+    double phase, value;
+  };
+
+  /// With the samples beyond either end that rise_between() asks for.
+  std::vector<CurveSample> with_ends(double spacing) const {
+    std::vector<CurveSample> curve;
+    for (const auto& [x, sample] : samples_) curve.push_back({x, sample.value});
+    const std::vector<CurveSample> own = curve;
+    const std::size_t n = own.size();
+    if (repeats_) {
+      for (std::size_t i = 0; i < 7; ++i) curve.push_back({own[i % n].x + 1.0 + static_cast<double>(i / n), own[i % n].y});
+      return curve;
+    }
+    for (const int i : {1, 2, 3, 4}) {
+      curve.insert(curve.begin(), {own.front().x - i * spacing, outside_});
+      curve.push_back({own.back().x + i * spacing, outside_});
+    }
+    return curve;
+  }
+
+  std::map<double, Sample> samples_;
+  double outside_{not_given};
+  bool repeats_{true};
+};
+
+/// A curve whose extreme is sought.
+struct SoughtCurve {
+  const Curve* curve;
+  double scale;  ///< what the tolerance of the search is a share of
+};
+
+/// Of one tooth pair at one position, see Search.
+struct PairReadings {
+  double stress{0.0}, load{0.0}, on_edges{0.0};
+  std::vector<double> further;
+};
+
+/// By tooth pair.
+std::map<int, PairReadings> pair_readings(const MeshPosition& at, const LoadedPosition& loaded, const std::vector<PointReading>& further) {
+  std::map<int, PairReadings> pairs;
+  for (std::size_t i = 0; i < at.points.size(); ++i) {
+    const auto point = static_cast<Eigen::Index>(i);
+    PairReadings& pair = pairs[at.points[i].tooth];
+    pair.stress = std::max(pair.stress, loaded.contact_stress[point]);
+    pair.load = std::max(pair.load, loaded.peak_load[point]);
+    if (loaded.edge_stress.size() > 0) pair.on_edges = std::max(pair.on_edges, loaded.edge_stress[point]);
+    pair.further.resize(further.size(), 0.0);
+    for (std::size_t r = 0; r < further.size(); ++r)
+      pair.further[r] = std::fmax(pair.further[r], further[r](at.points[i], loaded.load.line_load[point]));
+  }
+  return pairs;
+}
+
 class Search {
  public:
   Search(const MeshModel& model, const MeshAt& mesh_at, const FlankCondition& condition, double torque, const LoadedCycle& cycle,
          const ExtremeSearch& settings)
-      : mesh_at_(mesh_at), condition_(condition), torque_(torque), settings_(settings) {
+      : mesh_at_(mesh_at),
+        condition_(condition),
+        torque_(torque),
+        settings_(settings),
+        spacing_(1.0 / static_cast<double>(cycle.positions.size())),
+        further_(settings.further.size(), Curve::of_pair(0.0)) {
     for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
       const LoadedPosition& position = cycle.positions[p];
-      known_[position.phase] = values_of(model.positions[p], position, settings.further);
+      add(model.positions[p], position);
       even_.insert(position.phase);
-      mean_deflection_ += (position.load.transmission_error - position.gap.total.minCoeff()) / static_cast<double>(cycle.positions.size());
+      mean_deflection_ += spacing_ * (position.load.transmission_error - position.gap.total.minCoeff());
     }
-    const double variation = std::max(best(0) + best(1), quiet_share * mean_deflection_);
-    sought_ = {{0, variation}, {1, variation}, {2, best(2)}, {3, best(3)}, {4, best(2)}};
-    for (std::size_t i = 0; i < settings.further.size(); ++i) sought_.push_back({own_curves + i, best(own_curves + i)});
+    const double variation = std::max(te_.best() + turned_te_.best(), quiet_share * mean_deflection_);
+    // The share of the load on edges is not sought for itself: it peaks where the stress does.
+    sought_ = {{&te_, variation}, {&turned_te_, variation}, {&stress_, stress_.best()}, {&load_, load_.best()}, {&edge_stress_, stress_.best()}};
+    for (const Curve& curve : further_) sought_.push_back({&curve, curve.best()});
   }
 
   CycleExtremes run() {
@@ -70,15 +156,16 @@ class Search {
     std::set<double> probes(settings_.first.begin(), settings_.first.end());
     while (found.looked_at < settings_.most) {
       for (const auto& [curve, scale] : sought_) {
-        const CurveRise promise = highest_promise(curve);
-        if (promise.height > best(curve) + settings_.tolerance * scale) probes.insert(promise.x);
+        const CurveRise promise = curve->highest_promise(spacing_);
+        if (promise.height > curve->best() + settings_.tolerance * scale) probes.insert(promise.x);
       }
-      for (std::size_t c = edge_approaches; c < own_curves; ++c) {
+      for (const Member m : both_gears) {
+        const Curve& approach = edge_approach_[m];
         // Where the edge carries already, its stress is sought as well: the approach tells of tops that are much higher than what is known. An edge
         // that is about to touch within the tolerance of the search may touch at the next probe.
         constexpr double much = 0.05;
-        const double near = settings_.tolerance * mean_deflection_, known = best(c);
-        const CurveRise promise = highest_promise(c);
+        const double near = settings_.tolerance * mean_deflection_, known = approach.best();
+        const CurveRise promise = approach.highest_promise(spacing_);
         if (promise.height > std::fmax(-near, known + much * std::fmax(near, known))) probes.insert(promise.x);
       }
       std::erase_if(probes, [this](double phase) { return known_.contains(phase); });
@@ -89,67 +176,75 @@ class Search {
       const LoadedCycle cycle = analyse_cycle(mesh, condition_, torque_, {}, RootStresses::Later);
       found.looked_at += static_cast<int>(phases.size());
       if (!cycle.usable()) break;
-      for (std::size_t i = 0; i < phases.size(); ++i) known_[phases[i]] = values_of(mesh.positions[i], cycle.positions[i], settings_.further);
+      for (std::size_t i = 0; i < phases.size(); ++i) add(mesh.positions[i], cycle.positions[i]);
     }
-    std::set<double> phases;
-    for (std::size_t c = 0; c < own_curves + settings_.further.size(); ++c) {
-      const double highest = best(c);
-      const bool is_approach = c >= curves && c < own_curves;
-      // An edge that is about to touch is looked at with other intervals as well: they move it by less than this share of the mean deflection.
-      constexpr double about = 0.01;
-      if (is_approach ? !(highest <= 0.0 && highest > -about * mean_deflection_) : highest == 0.0) continue;  // 0: no tip edge is reached
-      const double phase = std::ranges::find_if(known_, [&](const auto& entry) { return entry.second[c] == highest; })->first;
-      if (!even_.contains(phase)) phases.insert(phase);
-    }
-    found.phases.assign(phases.begin(), phases.end());
-    const auto rise = [&](std::size_t c) { return std::max(0.0, highest_promise(c).height - best(c)); };
+    found.phases = phases_of_extremes();
+    const auto rise = [&](const Curve& curve) { return std::max(0.0, curve.highest_promise(spacing_).height - curve.best()); };
     const auto unseen = [&](Figure f) -> double& { return found.unseen[static_cast<std::size_t>(f)]; };
-    unseen(Figure::TePeakToPeak) = rise(0) + rise(1);
-    unseen(Figure::PeakContactStress) = rise(2);
-    unseen(Figure::PeakLineLoad) = rise(3);
-    found.unseen_edge_stress = rise(4);
-    found.unseen_edge_share = rise(5);
-    const auto highest = [&](std::size_t c) { return std::fmax(best(c), highest_promise(c).height); };
-    found.edge_approach = {highest(edge_approaches), highest(edge_approaches + 1)};
-    for (std::size_t i = 0; i < settings_.further.size(); ++i) found.unseen_further.push_back(rise(own_curves + i));
+    unseen(Figure::TePeakToPeak) = rise(te_) + rise(turned_te_);
+    unseen(Figure::PeakContactStress) = rise(stress_);
+    unseen(Figure::PeakLineLoad) = rise(load_);
+    found.unseen_edge_stress = rise(edge_stress_);
+    found.unseen_edge_share = rise(edge_share_);
+    for (const Member m : both_gears) {
+      const Curve& approach = edge_approach_[m];
+      found.edge_approach[m] = std::fmax(approach.best(), approach.highest_promise(spacing_).height);
+    }
+    for (const Curve& curve : further_) found.unseen_further.push_back(rise(curve));
     return found;
   }
 
  private:
-  /// NaN where no phase has a value.
-  double best(std::size_t c) const {
-    double largest = not_given;
-    for (const auto& [phase, values] : known_) largest = std::fmax(largest, values[c]);
-    return largest;
+  void add(const MeshPosition& at, const LoadedPosition& loaded) {
+    const double phase = loaded.phase, te = loaded.load.transmission_error;
+    known_.insert(phase);
+    te_.add(phase, phase, te);
+    turned_te_.add(phase, phase, -te);
+    edge_share_.add(phase, phase, std::fmax(0.0, loaded.tip_edge_share));
+    for (const auto& [tooth, pair] : pair_readings(at, loaded, settings_.further)) {
+      const double x = phase + tooth;
+      stress_.add(x, phase, pair.stress);
+      load_.add(x, phase, pair.load);
+      edge_stress_.add(x, phase, pair.on_edges);
+      for (std::size_t r = 0; r < further_.size(); ++r) further_[r].add(x, phase, pair.further[r]);
+      for (const Member m : both_gears) edge_approach_[m].add(x, phase, edge_approach(at, loaded, m, tooth).approach);
+    }
   }
 
-  /// Over all intervals, the cycle closed; at the division of its interval that is nearest.
-  CurveRise highest_promise(std::size_t c) const {
-    std::vector<CurveSample> once, curve;
-    for (const auto& [phase, values] : known_) once.push_back({phase, values[c]});
-    const std::size_t n = once.size();
-    for (std::size_t i = 0; i < n + 7; ++i) curve.push_back({once[i % n].x + static_cast<double>(i / n), once[i % n].y});
-    CurveRise highest;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double from = curve[i + 3].x, length = curve[i + 4].x - from;
-      if (length <= shortest) continue;
-      CurveRise rise = rise_between(curve, i + 3);
-      if (!(rise.height > highest.height)) continue;
-      rise.x = from + std::clamp(std::round(parts * (rise.x - from) / length), 1.0, parts - 1.0) / parts * length;
-      rise.x -= std::floor(rise.x);
-      highest = rise;
+  /// Those of the extremes that lie between the positions of the cycle.
+  std::vector<double> phases_of_extremes() const {
+    std::set<double> phases;
+    const auto take = [&](const Curve& curve) {
+      const double phase = curve.phase_of_best();
+      if (!even_.contains(phase)) phases.insert(phase);
+    };
+    for (const Curve* curve : {&te_, &turned_te_, &stress_, &load_}) take(*curve);
+    for (const Curve& curve : further_) take(curve);
+    for (const Curve* curve : {&edge_stress_, &edge_share_}) {
+      if (curve->best() > 0.0) take(*curve);
     }
-    return highest;
+    for (const Member m : both_gears) {
+      const Curve& approach = edge_approach_[m];
+      // An edge that is about to touch is looked at with other intervals as well: they move it by less than this share of the mean deflection.
+      constexpr double about = 0.01;
+      const double nearest = approach.best();
+      if (nearest <= 0.0 && nearest > -about * mean_deflection_) take(approach);
+    }
+    return {phases.begin(), phases.end()};
   }
 
   const MeshAt& mesh_at_;
   const FlankCondition& condition_;
   double torque_;
   const ExtremeSearch& settings_;
-  std::map<double, Values> known_;  ///< by phase
-  std::set<double> even_;           ///< phases of the cycle itself
+  double spacing_;                 ///< of the cycle's positions [base pitches]
+  double mean_deflection_{0.0};    ///< [mm]
+  std::set<double> known_, even_;  ///< phases of all positions that were solved, and of the cycle itself
+  Curve te_, turned_te_, edge_share_;
+  Curve stress_{Curve::of_pair(0.0)}, load_{Curve::of_pair(0.0)}, edge_stress_{Curve::of_pair(0.0)};
+  PerGear<Curve> edge_approach_{Curve::of_pair(not_given), Curve::of_pair(not_given)};
+  std::vector<Curve> further_;
   std::vector<SoughtCurve> sought_;
-  double mean_deflection_{0.0};  ///< [mm]
 };
 
 }  // namespace
@@ -184,9 +279,7 @@ std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle&
     }
     if (seen >= enough || std::isnan(passage)) continue;
     for (const int thirds : {1, 2, 3, 4}) {
-      constexpr double grid = 0x1p-30;  // of phases: round-off does not make two meshes of one
-      const double phase = grid * std::round((passage + outwards * thirds / 3.0 * spacing) / grid);
-      phases.push_back(phase - std::floor(phase));
+      phases.push_back(in_pitch(passage + outwards * thirds / 3.0 * spacing));
     }
   }
   return phases;

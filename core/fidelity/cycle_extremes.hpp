@@ -8,8 +8,9 @@
 
 namespace flankwright {
 
-/// A reading of a loaded mesh position whose largest value over the cycle is sought beside the cycle's own figures, such as its highest flash temperature; >= 0.
-using PositionReading = std::function<double(const MeshPosition&, const LoadedPosition&)>;
+/// A reading of a contact point under its line load [N/mm], whose largest value over the cycle is sought beside the cycle's own figures, such as a flash temperature;
+/// >= 0, NaN counts as 0.
+using PointReading = std::function<double(const ContactPoint&, double line_load)>;
 
 struct ExtremeSearch {
   /// Located where no interval between positions looks as if the extreme rose by more than this [-], > 0: of the peak to peak (at least
@@ -18,7 +19,7 @@ struct ExtremeSearch {
   double tolerance{2e-3};
   int most{32};                 ///< positions looked at before the search gives up, >= 1
   std::vector<double> first{};  ///< positions looked at before all others [base pitches], 0 .. 1, see tip_edge_passages()
-  std::vector<PositionReading> further{};
+  std::vector<PointReading> further{};
 };
 
 /// A cycle's extremes between its positions: each of these positions has the largest or smallest transmission error,
@@ -44,8 +45,8 @@ struct CycleExtremes {
 /// @param cycle  of the model, at equally spaced phases
 std::vector<double> tip_edge_passages(const MeshModel& model, const LoadedCycle& cycle);
 
-/// Seeks the extremes of a cycle in continuous phase. Curves consist of smooth pieces with kinks where lines begin and
-/// end. In every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant
+/// Seeks the extremes of a cycle in continuous phase. What is read at points is followed for each tooth pair by itself, because the pair that has most hides another one
+/// that is about to have more. Curves consist of smooth pieces with kinks where lines begin and end. In every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant
 /// or by the slope extrapolated from the last two secants, whichever is steeper: curves grow steeper towards a kink. On
 /// a smooth top, such as that of a load that passes a corner of the face, a parabola through three neighbours is taken. Beside a position that is
 /// alone on its piece the curve may go on rising, see rise_between(). Stress on a tip edge begins steeply, perhaps between two positions without any. There the

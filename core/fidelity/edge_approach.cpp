@@ -23,10 +23,10 @@ double deflection_at_edge(const ContactLaw& law) {
 
 }  // namespace
 
-EdgeApproach edge_approach(const MeshPosition& at, const LoadedPosition& loaded, Member gear) {
+EdgeApproach edge_approach(const MeshPosition& at, const LoadedPosition& loaded, Member gear, std::optional<int> tooth) {
   EdgeApproach found;
   for (std::size_t i = 0; i < at.laws.size(); ++i) {
-    if (!at.laws[i].edge() || at.points[i].tip_edge.gear != gear) continue;
+    if (!at.laws[i].edge() || at.points[i].tip_edge.gear != gear || (tooth && at.points[i].tooth != *tooth)) continue;
     const auto point = static_cast<Eigen::Index>(i);
     const double deflection = loaded.load.contact_deflection[point] - loaded.load.remaining_gap[point];
     if (deflection <= found.approach) continue;  // at_edge is 0 at least

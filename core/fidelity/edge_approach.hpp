@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/load/cycle/mesh_cycle.hpp"
 
 namespace flankwright {
@@ -13,7 +15,8 @@ struct EdgeApproach {
   double at_edge{not_given};  ///< deflection there under which the strip just reaches the edge [mm], >= 0; 0 where contact is beyond it
 };
 
-EdgeApproach edge_approach(const MeshPosition& at, const LoadedPosition& loaded, Member gear);
+/// @param tooth  the tooth pair that counts; nothing: all
+EdgeApproach edge_approach(const MeshPosition& at, const LoadedPosition& loaded, Member gear, std::optional<int> tooth = {});
 
 /// The pressure on the edge at the point of `edge`, if it had this approach instead of its own [MPa]: >= 0, and 0 where `approach` is not above 0.
 double edge_pressure_at(const MeshPosition& at, const LoadedPosition& loaded, const EdgeApproach& edge, double approach);

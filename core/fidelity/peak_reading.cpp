@@ -2,11 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/fidelity/cycle_error.hpp"
 #include "core/fidelity/edge_approach.hpp"
 
 namespace flankwright {
+
+PositionReading largest_of_points(PointReading reading) {
+  return [reading = std::move(reading)](const MeshPosition& at, const LoadedPosition& loaded) {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < at.points.size(); ++i) {
+      largest = std::fmax(largest, reading(at.points[i], loaded.load.line_load[static_cast<Eigen::Index>(i)]));
+    }
+    return largest;
+  };
+}
 
 PeakReading peak_of(const PositionReading& reading, const SolvedCycles& of, const std::vector<double>& extremes, double unseen) {
   PeakReadings all{of.fine.readings(reading), of.coarse.readings(reading)};

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/fidelity/cycle_extremes.hpp"
 
 namespace flankwright {
+
+/// A reading of a loaded mesh position; >= 0.
+using PositionReading = std::function<double(const MeshPosition&, const LoadedPosition&)>;
+/// The largest of a reading over the points of a position; 0 without any.
+PositionReading largest_of_points(PointReading reading);
 
 /// The largest value of a reading over positions and extremes, and its estimated error, in its own unit.
 struct PeakReading {

@@ -80,7 +80,8 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
   }
   for (std::size_t i = 0; i < resolving.further.size(); ++i) {
     const std::vector<double>& unseen = resolved.extremes.unseen_further;
-    resolved.further.push_back(peak_of(resolving.further[i], of, resolved.extremes.phases, i < unseen.size() ? unseen[i] : not_given));
+    resolved.further.push_back(
+        peak_of(largest_of_points(resolving.further[i]), of, resolved.extremes.phases, i < unseen.size() ? unseen[i] : not_given));
   }
   return resolved;
 }

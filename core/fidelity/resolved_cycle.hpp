@@ -28,7 +28,7 @@ struct CycleResolving {
   const LoadedCycle* coarse{nullptr};      ///< at coarse_phases() or at all phases of the cycle, with fewer intervals; null: no error is estimated
   const MeshModel* coarse_model{nullptr};  ///< of `coarse`; null: no error of further readings is estimated
   MeshAt coarse_at{};                      ///< the mesh of `coarse` at other phases; empty: both are compared at the positions alone
-  std::vector<PositionReading> further{};  ///< whose largest values are sought as well
+  std::vector<PointReading> further{};     ///< whose largest values are sought as well
 };
 
 /// Seeks the extremes of a solved cycle and holds it against a coarser one.

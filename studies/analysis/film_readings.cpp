@@ -7,19 +7,6 @@
 
 namespace flankwright::studies {
 
-namespace {
-
-/// The largest value of the points of a position.
-double largest(const MeshPosition& at, const LoadedPosition& loaded, const auto& value_of) {
-  double largest = 0.0;
-  for (std::size_t j = 0; j < at.points.size(); ++j) {
-    largest = std::fmax(largest, value_of(at.points[j], loaded.load.line_load[static_cast<Eigen::Index>(j)]));
-  }
-  return largest;
-}
-
-}  // namespace
-
 std::optional<Oil> oil_of(const LifeModel& life, const Operation& operation) {
   if (!life.lubricant) return std::nullopt;
   const double temperature = std::isnan(operation.temperature) ? life.lubricant->temperature : operation.temperature;
@@ -37,19 +24,15 @@ std::optional<FilmCondition> film_condition_of(const MeshModel& model, const Lif
   return film_condition(model.pair, model.face_width, force, *oil->lubricant, given);
 }
 
-std::vector<PositionReading> film_readings(const MeshModel& model, const LifeModel& life, const Operation& operation, double force) {
+std::vector<PointReading> film_readings(const MeshModel& model, const LifeModel& life, const Operation& operation, double force) {
   const std::optional<FilmCondition> film = film_condition_of(model, life, operation, force);
   if (!film) return {};
-  std::vector<PositionReading> readings(2);
-  readings[FilmReadings::flash] = [&model, film = *film](const MeshPosition& at, const LoadedPosition& loaded) {
-    return largest(at, loaded, [&](const ContactPoint& point, double load) {
-      return local_temperature(model.pair, model.contact_modulus, point, load, film).flash;
-    });
+  std::vector<PointReading> readings(2);
+  readings[FilmReadings::flash] = [&model, film = *film](const ContactPoint& point, double load) {
+    return local_temperature(model.pair, model.contact_modulus, point, load, film).flash;
   };
-  readings[FilmReadings::thinness] = [&model, &oil = *life.lubricant, film = *film](const MeshPosition& at, const LoadedPosition& loaded) {
-    return largest(at, loaded, [&](const ContactPoint& point, double load) {
-      return 1.0 / local_film(model.pair, model.contact_modulus, point, load, oil, film).ratio;
-    });
+  readings[FilmReadings::thinness] = [&model, &oil = *life.lubricant, film = *film](const ContactPoint& point, double load) {
+    return 1.0 / local_film(model.pair, model.contact_modulus, point, load, oil, film).ratio;
   };
   return readings;
 }

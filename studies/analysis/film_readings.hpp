@@ -25,13 +25,13 @@ std::optional<FilmCondition> film_condition_of(const MeshModel& model, const Lif
 
 /// Entries of film_readings().
 struct FilmReadings {
-  static constexpr std::size_t flash = 0;     ///< largest flash temperature of a position [K]
-  static constexpr std::size_t thinness = 1;  ///< reciprocal of its least specific film thickness [-]
+  static constexpr std::size_t flash = 0;     ///< flash temperature [K]
+  static constexpr std::size_t thinness = 1;  ///< reciprocal of the specific film thickness [-]
 };
 
-/// What is sought over the cycle of a load case beside its own figures. A position without a loaded point has 0 of both.
+/// What is sought over the cycle of a load case beside its own figures.
 /// @param model  lives on, life likewise
 /// @return       empty without lubricant or speed
-std::vector<PositionReading> film_readings(const MeshModel& model, const LifeModel& life, const Operation& operation, double force);
+std::vector<PointReading> film_readings(const MeshModel& model, const LifeModel& life, const Operation& operation, double force);
 
 }  // namespace flankwright::studies

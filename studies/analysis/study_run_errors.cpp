@@ -102,7 +102,7 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
                                    .coarse = coarse_cycle ? &*coarse_cycle : nullptr,
                                    .coarse_model = coarse[i],
                                    .coarse_at = mesh_at(scene.condition, scene.torque, true, {}, halved(results_.study.fidelity.quadrature)),
-                                   .further = life ? film_readings(*model, *life, scene.operation, cycle->force) : std::vector<PositionReading>()};
+                                   .further = life ? film_readings(*model, *life, scene.operation, cycle->force) : std::vector<PointReading>()};
     all[i] = resolve_cycle(*model, *cycle, at, scene.condition, scene.torque, resolving, gradient_parameters());
   });
   return all;

@@ -209,28 +209,25 @@ TEST_CASE("The largest value of a further reading lies between the positions, an
   const GearPair gears = drawn_pair();
   const FlankCondition condition = mesh_cases::worked_condition();
   const double torque = torque_for(gears, 120);
-  const PositionReading hottest = [&](const MeshPosition& at, const LoadedPosition& loaded) {
-    const FilmCondition film{.speed = 300.0, .oil_temperature = 80.0, .bulk_temperature = 100.0, .friction = 0.05, .roughness = 0.4};
-    double flash = 0.0;
-    for (std::size_t j = 0; j < at.points.size(); ++j) {
-      const double load = loaded.load.line_load[static_cast<Eigen::Index>(j)];
-      flash = std::max(flash, flash_temperature(gears, 1.1e5, at.points[j], load, film, HeatSource::Hertzian));
-    }
-    return flash;
+  const FilmCondition film{.speed = 300.0, .oil_temperature = 80.0, .bulk_temperature = 100.0, .friction = 0.05, .roughness = 0.4};
+  const PointReading flash = [&](const ContactPoint& point, double load) {
+    return flash_temperature(gears, 1.1e5, point, load, film, HeatSource::Hertzian);
   };
   const MeshAt mesh_at = mesh_of(gears, {QuadratureRule::Graded, 8}), coarse_at = mesh_of(gears, {QuadratureRule::Graded, 4});
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
   const std::vector<double> phases = equally_spaced_phases(32);
   const MeshModel model = mesh_at(phases), coarse_model = coarse_at(coarse_phases(phases));
   const LoadedCycle cycle = analyse_cycle(model, condition, torque), coarse = analyse_cycle(coarse_model, condition, torque);
-  const CycleResolving resolving{.coarse = &coarse, .coarse_model = &coarse_model, .coarse_at = coarse_at, .further = {hottest}};
+  const CycleResolving resolving{.coarse = &coarse, .coarse_model = &coarse_model, .coarse_at = coarse_at, .further = {flash}};
   const ResolvedCycle resolved = resolve_cycle(model, cycle, at, condition, torque, resolving);
   REQUIRE(resolved.further.size() == 1);
   const auto largest = [&](const MeshModel& mesh) {
     const LoadedCycle solved = analyse_cycle(mesh, condition, torque);
-    double flash = 0.0;
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) flash = std::max(flash, hottest(mesh.positions[i], solved.positions[i]));
-    return flash;
+    double hottest = 0.0;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+      hottest = std::max(hottest, largest_of_points(flash)(mesh.positions[i], solved.positions[i]));
+    }
+    return hottest;
   };
   const double many = largest(mesh_at(equally_spaced_phases(512))), kSearch = ExtremeSearch{}.tolerance, kPositions = 4e-3;
   CAPTURE(resolved.extremes.looked_at, largest(model));
