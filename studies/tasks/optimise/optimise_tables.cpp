@@ -101,6 +101,13 @@ std::string excess_of_exact_in_words(const DesignResult& design, const DesignTas
   return excess < said ? std::string() : fmt::format("the design before that exceeds a constraint by {:.1f} %\n", 100.0 * excess);
 }
 
+/// Why a step gains where it should cost; empty where it does not.
+std::string gain_in_words(const DesignResult& design) {
+  constexpr double said = 0.01;  // an optimum between steps may gain less by a kink
+  if (!design.choices.empty() || !(design.exact->objective > (1.0 + said) * design.after.objective)) return {};
+  return "the design before that has a peak between the mesh positions, such as that of a tip edge which only just touches\n";
+}
+
 /// A line below a row of figures: how far they are from those of infinitely many points and positions.
 std::string error_row(std::size_t width, double before, double after) {
   if (std::isnan(before) && std::isnan(after)) return {};
@@ -176,7 +183,7 @@ std::string optimise_summary(const StudyResults& results) {
                      task.scenes.size(), design.seconds);
   out += doubt_in_words(design);
   for (const std::string& sentence : grinding_choices_in_words(design, task, statistic_of_choices(results))) out += sentence + "\n";
-  if (design.exact) out += loss_in_words(design, task) + excess_of_exact_in_words(design, task);
+  if (design.exact) out += loss_in_words(design, task) + excess_of_exact_in_words(design, task) + gain_in_words(design);
   const SearchWork& work = found.search_work;
   const auto level = [&](const LevelWork& w) {
     return fmt::format("{} cycles of {} intervals and {} positions, {:.2g} ms each", w.cycles, w.resolution.quadrature.intervals,

@@ -186,6 +186,20 @@ TEST_CASE("The summary of a list has every objective before and after, and says 
   CHECK(stages[1]["unit"] == "um");
 }
 
+TEST_CASE("Where steps gain instead of costing, the reason is said", "[studies][optimise-keys]") {
+  StudyResults results = run_study(read_optimisation("", {{"optimise.step", "1"}}));
+  OptimiseResults found = optimised(results);
+  REQUIRE(found.design.exact);
+  const auto says_why = [&](double exact) {
+    found.design.exact->objective = exact * found.design.after.objective;
+    results.set_found(std::make_shared<const OptimiseResults>(found));
+    return summary_table(results).find("has a peak between the mesh positions") != std::string::npos;
+  };
+  CHECK(says_why(1.05));
+  CHECK_FALSE(says_why(1.005));
+  CHECK_FALSE(says_why(0.95));
+}
+
 TEST_CASE("Where the exact objective is 0 or nearly so, both values are said and no per cent", "[studies][optimise-keys]") {
   StudyResults results = run_study(read_optimisation("", {{"optimise.step", "1"}}));
   OptimiseResults found = optimised(results);
