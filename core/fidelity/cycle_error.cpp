@@ -100,6 +100,7 @@ double approach_of(const LoadedPosition& position) { return position.load.transm
 double te_of(const LoadedPosition& position) { return position.load.transmission_error; }
 double stress_of(const LoadedPosition& position) { return position.contact_stress.maxCoeff(); }
 double load_of(const LoadedPosition& position) { return position.peak_load.maxCoeff(); }
+double stiffness_of(const LoadedPosition& position) { return position.stiffness; }
 double edge_stress_of(const LoadedPosition& position) { return position.edge_stress.size() > 0 ? position.edge_stress.maxCoeff() : not_given; }
 double edge_share_of(const LoadedPosition& position) { return position.tip_edge_share; }
 double root_of(const LoadedPosition& position) { return position.root_stress.size() > 0 ? position.root_stress.maxCoeff() : not_given; }
@@ -153,6 +154,12 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
     errors.tip_edge_share = peaks_apart(edge_share_of);
   }
   errors.mean_stiffness = stiffness_error(mean_error_by_points(differences(approach_of)), fine, summary);
+  // Its extremes have the relative error of the mean and what the shape lacks, as the peak to peak of the transmission error does.
+  const std::vector<double> of_stiffness = differences(stiffness_of);
+  const double shape = of_shape * (std::ranges::max(of_stiffness) - std::ranges::min(of_stiffness)),
+               relative = errors.mean_stiffness / summary.mean_stiffness;
+  errors.least_stiffness = relative * summary.least_stiffness + shape;
+  errors.largest_stiffness = relative * summary.largest_stiffness + shape;
   return errors;
 }
 
@@ -185,6 +192,11 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
     errors.tip_edge_share = extremes != nullptr ? extremes->unseen_edge_share : unseen_rise(curve(fine, edge_share_of));
   }
   errors.mean_stiffness = stiffness_error(mean_error_by_positions(curve(fine, approach_of), share), fine, summary);
+  std::vector<double> turned_stiffness;
+  for (const LoadedPosition& position : fine.positions) turned_stiffness.push_back(-position.stiffness);
+  const double relative = errors.mean_stiffness / summary.mean_stiffness;
+  errors.least_stiffness = relative * summary.least_stiffness + unseen_rise(turned_stiffness);
+  errors.largest_stiffness = relative * summary.largest_stiffness + unseen_rise(curve(fine, stiffness_of));
   return errors;
 }
 

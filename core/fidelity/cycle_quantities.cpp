@@ -16,7 +16,7 @@ std::vector<double> one(const CycleSummary& summary) {
   return {std::invoke(of, summary)};
 }
 template <auto of>
-std::vector<double> error(const CycleErrors& errors) {
+std::vector<double> error(const CycleErrors& errors, const CycleSummary&) {
   return {std::invoke(of, errors)};
 }
 template <auto of>
@@ -40,6 +40,13 @@ std::vector<double> te_rms(const S& s) {
   return {s.te_harmonics.empty() ? not_given : std::sqrt(squares)};
 }
 
+/// At most sqrt(sum e_k^2 / 2), by the triangle inequality.
+std::vector<double> te_rms_error(const E& e, const S&) {
+  double squares = 0.0;
+  for (const double error : e.te_harmonics) squares += 0.5 * error * error;
+  return {e.te_harmonics.empty() ? not_given : std::sqrt(squares)};
+}
+
 /// sum a_k a_k' / (2 rms); at 0, where it has a kink, 0, one of its subgradients.
 Eigen::MatrixXd te_rms_slope(const S& s, const G& g) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(g.te_harmonics.cols());
@@ -51,6 +58,14 @@ Eigen::MatrixXd te_rms_slope(const S& s, const G& g) {
 
 Eigen::MatrixXd stiffness_variation_slope(const S& s, const G& g) {
   return (g.largest_stiffness - g.least_stiffness - s.stiffness_variation() * g.mean_stiffness) / s.mean_stiffness;
+}
+
+/// What the error of the mean stiffness does to all positions alike leaves their ratios: only the rest of the extremes' errors counts, and the scale.
+std::vector<double> stiffness_variation_error(const E& e, const S& s) {
+  const double scale = e.mean_stiffness / s.mean_stiffness;
+  const auto beside_scale = [&](double error, double value) { return error < scale * value ? 0.0 : error - scale * value; };  // NaN stays
+  const double apart = beside_scale(e.largest_stiffness, s.largest_stiffness) + beside_scale(e.least_stiffness, s.least_stiffness);
+  return {apart / s.mean_stiffness + scale * s.stiffness_variation()};
 }
 
 constexpr std::array rows{
@@ -75,7 +90,7 @@ constexpr std::array rows{
                   .unit_size = units::um,
                   .is_list = true,
                   .values = [](const S& s) { return s.te_harmonics; },
-                  .errors = [](const E& e) { return e.te_harmonics; },
+                  .errors = [](const E& e, const S&) { return e.te_harmonics; },
                   .gradients = slope<&G::te_harmonics>},
     CycleQuantity{.name = "te_rms",
                   .key = "te_rms_um",
@@ -84,6 +99,7 @@ constexpr std::array rows{
                   .unit = "um",
                   .unit_size = units::um,
                   .values = te_rms,
+                  .errors = te_rms_error,
                   .gradients = te_rms_slope},
     CycleQuantity{.name = "te_mean",
                   .key = "te_mean_um",
@@ -168,6 +184,7 @@ constexpr std::array rows{
                   .unit = "N/(mm um)",
                   .smaller_is_worse = true,
                   .values = one<&S::least_stiffness>,
+                  .errors = error<&E::least_stiffness>,
                   .gradients = slope<&G::least_stiffness>},
     CycleQuantity{.name = "largest_stiffness",
                   .key = "largest_stiffness_N_per_mm_um",
@@ -176,12 +193,14 @@ constexpr std::array rows{
                   .unit = "N/(mm um)",
                   .smaller_is_worse = true,
                   .values = one<&S::largest_stiffness>,
+                  .errors = error<&E::largest_stiffness>,
                   .gradients = slope<&G::largest_stiffness>},
     CycleQuantity{.name = "stiffness_variation",
                   .key = "stiffness_variation",
                   .words = "variation of the mesh stiffness",
                   .topic = "Stiffness",
                   .values = one<&S::stiffness_variation>,
+                  .errors = stiffness_variation_error,
                   .gradients = stiffness_variation_slope},
     CycleQuantity{.name = "load_factor",
                   .key = "load_factor",
@@ -229,8 +248,8 @@ double CycleEntry::of(const std::vector<double>& values) const {
 
 double CycleEntry::value(const CycleSummary& summary) const { return of(quantity->values(summary)) / quantity->unit_size; }
 
-double CycleEntry::error(const CycleErrors& errors) const {
-  return quantity->errors == nullptr ? not_given : of(quantity->errors(errors)) / quantity->unit_size;
+double CycleEntry::error(const CycleErrors& errors, const CycleSummary& summary) const {
+  return quantity->errors == nullptr ? not_given : of(quantity->errors(errors, summary)) / quantity->unit_size;
 }
 
 std::vector<CycleEntry> cycle_entries() {

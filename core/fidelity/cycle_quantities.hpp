@@ -27,7 +27,7 @@ struct CycleQuantity {
   bool is_list{false};  ///< one entry for each order, from 1 on; else one
 
   using Values = std::vector<double> (*)(const CycleSummary&);
-  using Errors = std::vector<double> (*)(const CycleErrors&);
+  using Errors = std::vector<double> (*)(const CycleErrors&, const CycleSummary&);
   using Gradients = Eigen::MatrixXd (*)(const CycleSummary&, const CycleGradient&);
   Values values{nullptr};        ///< internal unit; NaN: not computed
   Errors errors{nullptr};        ///< estimated discretisation errors, internal unit; null: none are estimated
@@ -49,7 +49,7 @@ struct CycleEntry {
   double of(const std::vector<double>& values) const;
   /// In the row's unit; NaN where it was not computed or estimated.
   double value(const CycleSummary& summary) const;
-  double error(const CycleErrors& errors) const;
+  double error(const CycleErrors& errors, const CycleSummary& summary) const;
 };
 
 inline constexpr int highest_te_harmonic = 10;  ///< order that a summary has

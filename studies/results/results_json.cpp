@@ -195,7 +195,7 @@ Json quantities_json(const LoadedResult& loaded, bool full_cycle) {
       return outside(values.front());
     };
     json[std::string(quantity.key)] = shown(quantity.values(loaded.summary));
-    if (quantity.errors != nullptr) errors[std::string(quantity.key) + "_error"] = shown(quantity.errors(loaded.resolved.errors));
+    if (quantity.errors != nullptr) errors[std::string(quantity.key) + "_error"] = shown(quantity.errors(loaded.resolved.errors, loaded.summary));
   }
   json.update(errors);
   json["errors_from_intervals"] = loaded.compared_intervals > 0 ? Json(loaded.compared_intervals) : Json();

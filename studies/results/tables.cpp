@@ -44,21 +44,25 @@ std::string cycle_csv(const StudyResults& results) {
 std::string points_csv(const StudyResults& results) {
   std::string csv = std::string(load_case_columns) +
                     ",phase,tooth,z_mm,pinion_radius_mm,wheel_radius_mm,load_N_per_mm,contact_stress_MPa,"
-                    "contact_deflection_um,structural_deflection_um,gap_um,error_um\n";
+                    "contact_deflection_um,structural_deflection_um,gap_um,error_um,edge_stress_MPa,flash_temperature_K,specific_film_thickness\n";
   const std::vector<bool> with_points = cases_with_points(results);
   for (std::size_t l = 0; l < results.loaded.size(); ++l) {
     const LoadedResult& loaded = results.loaded[l];
     const MeshModel& model = results.models[loaded.model];
     const std::string load_case = load_case_fields(loaded);
+    const CaseLife* life = results.life ? results.life->find(l) : nullptr;
     for (std::size_t k = 0; k < loaded.cycle.positions.size() && with_points[l]; ++k) {
       const LoadedPosition& p = loaded.cycle.positions[k];
       if (!p.load.usable()) continue;
       for (std::size_t j = 0; j < model.positions[k].points.size(); ++j) {
         const ContactPoint& c = model.positions[k].points[j];
         const auto i = static_cast<Eigen::Index>(j);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", load_case, p.phase, c.tooth, c.z, c.pinion_radius, c.wheel_radius,
+        const double on_edge = p.edge_stress.size() > 0 ? p.edge_stress[i] : not_given;
+        const bool has_film = life != nullptr && !life->flash.empty();
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", load_case, p.phase, c.tooth, c.z, c.pinion_radius, c.wheel_radius,
                            p.load.line_load[i], p.contact_stress[i], in_um(p.load.contact_deflection[i]), in_um(p.load.structural_deflection[i]),
-                           in_um(p.gap.total[i]), in_um(p.gap.error[i]));
+                           in_um(p.gap.total[i]), in_um(p.gap.error[i]), csv_field(on_edge), csv_field(has_film ? life->flash[k][i] : not_given),
+                           csv_field(has_film ? life->film_at_points[k][i] : not_given));
       }
     }
   }
@@ -84,7 +88,7 @@ std::string loaded_table(const std::vector<LoadedResult>& cases, std::size_t wid
                 [&](const CycleEntry& column) { return fmt::format("{:.{}f}", column.value(l.summary), column.quantity->decimals); });
     const CycleErrors& errors = l.resolved.errors;
     if (std::isnan(errors.te_peak_to_peak)) continue;
-    out += line("  known to", "", [&](const CycleEntry& column) { return known_to(column.error(errors)); });
+    out += line("  known to", "", [&](const CycleEntry& column) { return known_to(column.error(errors, l.summary)); });
   }
   return out;
 }

@@ -104,7 +104,7 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene
   ResolvedValue found;
   if (entry.quantity != nullptr) {
     found.value = entry.of(entry.quantity->values(resolved.summary));
-    if (entry.quantity->errors != nullptr) found.error = entry.of(entry.quantity->errors(resolved.errors));
+    if (entry.quantity->errors != nullptr) found.error = entry.of(entry.quantity->errors(resolved.errors, resolved.summary));
   }
   if (!std::isnan(found.value)) return found;
   const DesignOutput& row = design_output(term.output);
