@@ -14,7 +14,7 @@ namespace {
 // Shares of a difference that are called an error, see estimate_errors().
 constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_harmonics = 1.0 / 2.0, of_peaks = 1.0, of_root_stress = 1.0 / 2.0,
                  of_positions = 1.0 / 3.0, of_positions_beside_jump = 1.0;
-/// Share of the estimated error of the finer cycle that is added to a change, see point_errors_beside_finer().
+/// Share of an estimate for order two that is taken for order one, see point_errors_beside_finer().
 constexpr double of_order_one = 2.0;
 /// Positions whose peak is within this fraction of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
@@ -153,10 +153,11 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
     errors.edge_stress = peaks_apart(edge_stress_of);
     errors.tip_edge_share = peaks_apart(edge_share_of);
   }
-  errors.mean_stiffness = stiffness_error(mean_error_by_points(differences(approach_of)), fine, summary);
-  // Its extremes have the relative error of the mean and what the shape lacks, as the peak to peak of the transmission error does.
+  // The least gap, which the approach is counted from, is that of a point: order one.
+  errors.mean_stiffness = stiffness_error(of_order_one * mean_error_by_points(differences(approach_of)), fine, summary);
+  // Its extremes have the relative error of the mean, and between them all that the shape changes by, as peaks.
   const std::vector<double> of_stiffness = differences(stiffness_of);
-  const double shape = of_shape * (std::ranges::max(of_stiffness) - std::ranges::min(of_stiffness)),
+  const double shape = 0.5 * of_peaks * (std::ranges::max(of_stiffness) - std::ranges::min(of_stiffness)),
                relative = errors.mean_stiffness / summary.mean_stiffness;
   errors.least_stiffness = relative * summary.least_stiffness + shape;
   errors.largest_stiffness = relative * summary.largest_stiffness + shape;

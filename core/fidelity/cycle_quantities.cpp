@@ -40,13 +40,6 @@ std::vector<double> te_rms(const S& s) {
   return {s.te_harmonics.empty() ? not_given : std::sqrt(squares)};
 }
 
-/// At most sqrt(sum e_k^2 / 2), by the triangle inequality.
-std::vector<double> te_rms_error(const E& e, const S&) {
-  double squares = 0.0;
-  for (const double error : e.te_harmonics) squares += 0.5 * error * error;
-  return {e.te_harmonics.empty() ? not_given : std::sqrt(squares)};
-}
-
 /// sum a_k a_k' / (2 rms); at 0, where it has a kink, 0, one of its subgradients.
 Eigen::MatrixXd te_rms_slope(const S& s, const G& g) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(g.te_harmonics.cols());
@@ -99,7 +92,6 @@ constexpr std::array rows{
                   .unit = "um",
                   .unit_size = units::um,
                   .values = te_rms,
-                  .errors = te_rms_error,
                   .gradients = te_rms_slope},
     CycleQuantity{.name = "te_mean",
                   .key = "te_mean_um",
