@@ -201,12 +201,6 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
   return errors;
 }
 
-/// Where the largest stress is on a tip edge both are one figure, with one error.
-void join_edge_to_peak(const CycleSummary& summary, CycleErrors& errors) {
-  if (summary.edge_stress != summary.peak_contact_stress) return;
-  errors.edge_stress = errors.peak_contact_stress = std::fmax(errors.edge_stress, errors.peak_contact_stress);
-}
-
 }  // namespace
 
 CycleErrors CycleErrorParts::sum() const {
@@ -218,6 +212,11 @@ CycleErrors CycleErrorParts::sum() const {
 
 std::vector<double> coarse_phases(const std::vector<double>& phases) {
   return phases.size() % 2 == 0 && phases.size() >= 8 ? every(phases, 2) : phases;
+}
+
+void join_edge_to_peak(const CycleSummary& summary, CycleErrors& errors) {
+  if (summary.edge_stress != summary.peak_contact_stress) return;
+  errors.edge_stress = errors.peak_contact_stress = std::fmax(errors.edge_stress, errors.peak_contact_stress);
 }
 
 CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse, const CycleExtremes* extremes,
@@ -257,7 +256,6 @@ CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCyc
     errors.te_harmonics.push_back(
         better(std::abs(summary.te_harmonics[k] - finer_summary.te_harmonics[k]), of_finer.te_harmonics[k], stated.te_harmonics[k]));
   }
-  join_edge_to_peak(summary, errors);
   return errors;
 }
 

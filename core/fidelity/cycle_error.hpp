@@ -50,6 +50,10 @@ struct CyclesBetween {
 CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse,
                                 const CycleExtremes* extremes = nullptr, const CyclesBetween& between = {});
 
+/// Where the largest stress is on a tip edge both are one figure, with one error, the larger of the two.
+/// @param summary  that is shown, with extremes between the positions
+void join_edge_to_peak(const CycleSummary& summary, CycleErrors& errors);
+
 /// Estimated discretisation error of the mean of a reading that every mesh position has, by points and positions, as estimate_errors() has it for the mean
 /// transmission error: in the reading's unit, >= 0.
 /// @param fine    at evenly spaced positions over one base pitch, at least 4

@@ -90,6 +90,7 @@ void hold_against_finer(const MeshModel& model, const LoadedCycle& cycle, const 
                         ResolvedCycle& resolved) {
   CycleErrors& points = resolved.error_parts.points;
   points = point_errors_beside_finer(points, cycle, summarise(model, cycle), finer, summarise(finer_model, finer));
+  join_edge_to_peak(resolved.summary, points);
   resolved.errors = resolved.error_parts.sum();
 }
 

@@ -56,7 +56,7 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
   of.film_friction = condition->friction;
   of.bulk_temperature = condition->bulk_temperature;
   add_film_of(model, loaded.cycle, *life.lubricant, *condition, of.film_at_points, of.flash, of);
-  if (loaded.resolved.extreme_mesh) {
+  if (loaded.resolved.extreme_mesh && loaded.resolved.extreme_cycle.usable()) {
     std::vector<Eigen::VectorXd> films, flashes;  // of positions that are not shown
     add_film_of(*loaded.resolved.extreme_mesh, loaded.resolved.extreme_cycle, *life.lubricant, *condition, films, flashes, of);
   }

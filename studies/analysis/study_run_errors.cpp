@@ -57,6 +57,7 @@ void widen_edge_errors(const CycleErrors& stated, const CycleSummary& summary, c
   if (!finer.usable() || !at_extremes.usable()) return;
   widened(&CycleErrors::edge_stress, stress, summary.edge_stress);
   widened(&CycleErrors::tip_edge_share, share, summary.tip_edge_share);
+  join_edge_to_peak(summary, resolved.error_parts.points);
   resolved.errors = resolved.error_parts.sum();
 }
 

@@ -59,7 +59,9 @@ Json gradients_of(const StudyResults& results, const CaseLife& of) {
     json[key] = nullptr;
     if (std::isnan(of.*quantity.of_pair)) continue;
     const ObjectiveTerm term{.output = *quantity.output, .name = key, .reciprocal = quantity.is_reciprocal};
-    Eigen::RowVectorXd gradient = candidate_value(term, leading_candidates(term, scene, 0.0, 1).front(), scene).gradient.transpose();
+    const std::optional<LoadedScene> between = between_positions(term, scene, loaded.resolved);
+    const LoadedScene& at = between ? *between : scene;
+    Eigen::RowVectorXd gradient = candidate_value(term, leading_candidates(term, at, 0.0, 1).front(), at).gradient.transpose();
     for (const Eigen::Index p : moving) gradient[p] = not_given;
     json[key] = outside.row(gradient);
   }

@@ -87,6 +87,15 @@ double output_value(const ObjectiveTerm& term, const LoadedScene& scene) {
   return term.reciprocal ? 1.0 / value : value;
 }
 
+std::optional<LoadedScene> between_positions(const ObjectiveTerm& term, const LoadedScene& scene, const ResolvedCycle& resolved) {
+  const DesignOutput& row = design_output(term.output);
+  if (!row.needs_oil || !resolved.extreme_mesh || !resolved.extreme_cycle.usable()) return std::nullopt;
+  const LoadedScene between{*resolved.extreme_mesh, resolved.extreme_cycle, scene.operation, scene.life};
+  const double there = own_value(term, between), at_positions = own_value(term, scene);
+  if (row.is_least ? !(there < at_positions) : !(there > at_positions)) return std::nullopt;
+  return between;
+}
+
 ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene, const ResolvedCycle& resolved) {
   if (term.reciprocal) {
     ObjectiveTerm own = term;
@@ -107,11 +116,8 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene
     if (entry.quantity->errors != nullptr) found.error = entry.of(entry.quantity->errors(resolved.errors, resolved.summary));
   }
   if (!std::isnan(found.value)) return found;
-  const DesignOutput& row = design_output(term.output);
-  found.value = output_value(term, scene);
-  if (!row.needs_oil || !resolved.extreme_mesh) return found;
-  const double between = output_value(term, {*resolved.extreme_mesh, resolved.extreme_cycle, scene.operation, scene.life});
-  found.value = row.is_least ? std::min(found.value, between) : std::max(found.value, between);
+  const std::optional<LoadedScene> between = between_positions(term, scene, resolved);
+  found.value = output_value(term, between ? *between : scene);
   return found;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/fidelity/resolved_cycle.hpp"
@@ -13,11 +14,14 @@ namespace flankwright {
 double output_value(const ObjectiveTerm& term, const LoadedScene& scene);
 
 /// The same with extremes between the positions, and its estimated error, inside unit; the error is NaN where none was
-/// estimated. Outputs without a figure in the summary are those of the positions.
+/// estimated. Outputs without a figure in the summary are those of the positions and, of film and temperatures, of the extremes between.
 struct ResolvedValue {
   double value{not_given}, error{not_given};
 };
 ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene, const ResolvedCycle& resolved);
+
+/// The load case at its extremes between the positions, where an output of film or temperature has its value there; nothing where it has it at a position.
+std::optional<LoadedScene> between_positions(const ObjectiveTerm& term, const LoadedScene& scene, const ResolvedCycle& resolved);
 
 /// Candidates whose value is at least (1 - margin) of the output's, largest first (equals by position), at most `most`; of an output that is the
 /// least of them those up to (1 + margin), least first.

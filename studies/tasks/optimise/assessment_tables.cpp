@@ -70,6 +70,12 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
   };
   if (const ComparedDesign* best = best_of(assessment.rules)) {
     beside("best rule of thumb, " + best->design.name, best->objective);
+    constexpr double better = 0.99;  // of the optimum: less is within what steps and resolution change
+    if (best->objective < better * optimum) {
+      out +=
+          "that rule of thumb is better than the design found, which is a local optimum: more optimise.starts, or a start at the rule's amounts, may find "
+          "a better one\n";
+    }
   } else if (!assessment.rules.empty()) {
     out += no_rule_in_words(assessment.rules) + "\n";
   }

@@ -105,7 +105,7 @@ std::string excess_of_exact_in_words(const DesignResult& design, const DesignTas
 std::string gain_in_words(const DesignResult& design) {
   constexpr double said = 0.01;  // an optimum between steps may gain less by a kink
   if (!design.choices.empty() || !(design.exact->objective > (1.0 + said) * design.after.objective)) return {};
-  return "the design before that has a peak between the mesh positions, such as that of a tip edge which only just touches\n";
+  return "the design before that has a peak between the mesh positions that the steps avoid\n";
 }
 
 /// A line below a row of figures: how far they are from those of infinitely many points and positions.
