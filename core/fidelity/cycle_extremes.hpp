@@ -31,7 +31,7 @@ struct CycleExtremes {
   double unseen_edge_stress{0.0};  ///< likewise of the stress on tip edges [MPa]
   double unseen_edge_share{0.0};   ///< likewise of their share of the load [-]
   PerGear<double> edge_approach{not_given,
-                                not_given};  ///< to which the edges of either gear may come, see EdgeApproach [mm]; NaN: no point lies beyond one
+                                not_given};  ///< to which the edges of either gear may come, see EdgeApproach [mm]; -infinity: no point has one
   std::vector<double> unseen_further;        ///< likewise of the further readings, in their units
   int looked_at{0};                          ///< positions solved
 };
