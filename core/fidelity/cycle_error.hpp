@@ -34,7 +34,7 @@ struct CyclesBetween {
 ///     taken, because some of the error converges more slowly. The peak to peak is off by (max d - min d)/3. Harmonic k is off by
 ///     (|DFT_k d| + rms(d - mean d))/2: a single order may be small by chance, and where kinks wander its fine and coarse errors do not point the same way.
 ///   - Peaks of root stress are off by half of what changes. The mean stiffness is off by twice what the mean deflection would be, because the least gap of the points converges with order
-///     one; its extremes by as much again as a share of themselves, and by half the range of the differences.
+///     one. The least and the largest stiffness have the same relative error, and half the range of the differences beside it.
 ///   - Peaks of stress and load mostly lie at the ends of lines and converge with order one at least. They are off by the largest difference of both
 ///     peaks around any position that comes within a tenth of the peak, a sixteenth of the cycle to either side. Position by position they would differ
 ///     by more: kinks of a linear relief wander between points. Both cycles are compared at the extremes between the positions as well, where they

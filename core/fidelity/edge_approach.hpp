@@ -8,7 +8,7 @@ namespace flankwright {
 
 /// How far a gear's tip edge is pressed into its mate at a mesh position.
 struct EdgeApproach {
-  /// Deflection of the contact beyond that under which its strip just reaches the edge [mm]; below 0 what is missing, the gap that is left included. It runs smoothly
+  /// Deflection of the contact beyond that under which its strip just reaches the edge [mm]; below 0 what is missing, the gap that is left included. It passes smoothly
   /// through 0 where the stress on the edge begins. NaN: no point has an edge of this gear.
   double approach{not_given};
   Eigen::Index point{-1};     ///< of the position, where it is largest; -1: none

@@ -39,8 +39,8 @@ struct SolvedCycles {
 /// @param unseen    by the search for extremes; NaN: there was none
 PeakReading peak_of(const PositionReading& reading, const SolvedCycles& of, const std::vector<double>& extremes, double unseen);
 
-/// The pressure that an edge of this gear would have, at the point nearest to its mate, if it were pressed in as far as search and points do not rule out, where none is seen to
-/// touch: 0 where it stays clear [MPa]. It grows as the square root of the approach, so that a small one decides.
+/// The error of the stress on the edges of a gear that are not seen to touch [MPa]: the pressure at the point nearest to its mate, if the edge were pressed in as far as the
+/// errors of its approach allow; 0 where it stays clear all the same. The pressure grows as the square root of the approach, so that a small one decides.
 /// @param extremes  of the load case, after a search
 double untouched_edge_error(const SolvedCycles& of, const CycleExtremes& extremes, Member gear);
 

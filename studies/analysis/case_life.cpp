@@ -28,7 +28,7 @@ void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult&
 }
 
 /// Takes the extremes of one cycle's points.
-/// @param film, flash  where the values at the points of each position are kept
+/// @param films, flashes  where the values at the points of each position are kept
 void add_film_of(const MeshModel& model, const LoadedCycle& cycle, const Lubricant& lubricant, const FilmCondition& condition,
                  std::vector<Eigen::VectorXd>& films, std::vector<Eigen::VectorXd>& flashes, CaseLife& of) {
   for (std::size_t i = 0; i < model.positions.size(); ++i) {

@@ -40,10 +40,10 @@ class OptimiseSearch {
   /// which an analysis chooses its positions. Where no design keeps the constraints, the excess takes the objective's place.
   bool rises_between_positions(const DesignReport& at_positions, const DesignReport& shown, bool infeasible) const;
   /// A search at few positions may leave a peak between them, such as that of an edge which a hundredth of a micrometre of relief keeps from touching. It goes
-  /// on at twice the positions then, unless the design in steps that can be ground does without.
+  /// on at twice the positions then, unless the design rounded to the steps that can be ground has no such peak.
   void take_more_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
-  /// Whether what can be ground of the scaled design x differs from it and has all at the positions. An optimum often lies where an edge only just does not touch, and
-  /// the next step keeps it clear.
+  /// Whether the scaled design x, rounded to what can be ground, has no peak between the positions; false where rounding leaves it as it is. An optimum often lies where a
+  /// tip edge only just stays clear, and the next step keeps it clear.
   bool grinds_without_rise(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);
   /// A search with few points along the contact lines may see a transmission error, or an order of the scenes, that more points do not. It goes on with twice
   /// the intervals then, up to those of an analysis.

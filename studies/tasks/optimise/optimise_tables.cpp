@@ -101,7 +101,7 @@ std::string excess_of_exact_in_words(const DesignResult& design, const DesignTas
   return excess < said ? std::string() : fmt::format("the design before that exceeds a constraint by {:.1f} %\n", 100.0 * excess);
 }
 
-/// Why a step gains where it should cost; empty where it does not.
+/// Why rounding to steps lowers the objective, which it should raise; empty where it does not lower it.
 std::string gain_in_words(const DesignResult& design) {
   constexpr double said = 0.01;  // an optimum between steps may gain less by a kink
   if (!design.choices.empty() || !(design.exact->objective > (1.0 + said) * design.after.objective)) return {};
