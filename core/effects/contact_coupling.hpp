@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/compliance/local/contact_kernel.hpp"
 #include "core/effects/effect.hpp"
@@ -14,7 +15,8 @@ namespace flankwright {
 ///
 ///     K_ij = g_ij,    K_ii a_i = int_line g dt - sum over j != i of a_j g_ij - int_face g dt,
 ///
-/// a the lengths of line that belong to the points. An even load over the face is left as it was. A line that ends on the face, at a tip, has the support of
+/// a the parts of the line that belong to the points, one behind the other, and g_ij the mean over two of them: where a relief begins the load has a kink, and half of
+/// what its neighbours take off a point lies within its own part and the next. An even load over the face is left as it was. A line that ends on the face, at a tip, has the support of
 /// what is not loaded beyond. Beside thin slices, which do not support each other, it does nothing.
 class ContactCouplingEffect final : public Effect {
  public:
@@ -60,9 +62,14 @@ class ContactCouplingEffect final : public Effect {
         builder.even_load_compliance[static_cast<Eigen::Index>(i)] += even;
         builder.influence(i, i) += (unit * kernel.over(s, line, depth(i)) - even) / points[i].weight;
       }
+      std::vector<ContactKernel::Range> of_points;
+      for (std::size_t i = first; i < last; ++i) {
+        const double begin = of_points.empty() ? line.begin : of_points.back().end;
+        of_points.push_back({begin, begin + points[i].weight});
+      }
       for (std::size_t i = first; i < last; ++i) {
         for (std::size_t j = first; j < i; ++j) {
-          const double g = unit * kernel.between(points[i].z / slant, points[j].z / slant, 0.5 * (depth(i) + depth(j)));
+          const double g = unit * kernel.between(of_points[i - first], of_points[j - first], 0.5 * (depth(i) + depth(j)));
           builder.influence(i, j) += g;
           builder.influence(j, i) += g;
           builder.influence(i, i) -= g * points[j].weight / points[i].weight;

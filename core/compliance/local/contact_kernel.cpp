@@ -8,8 +8,10 @@ namespace flankwright {
 namespace {
 
 constexpr double spread = 0.1;  // e/h
+/// Parts of a line at least so many times the longer one apart are as far apart as their middles.
+constexpr double far_apart = 4.0;
 
-/// G and its integral from 0.
+/// G and its integrals.
 struct HalfSpace {
   double plane_strain, by_depth, e, H;
 
@@ -24,6 +26,19 @@ struct HalfSpace {
   }
   double integral(double r) const {
     return plane_strain * (std::asinh(r / e) - std::asinh(r / H)) - by_depth / (H * H) * r / std::sqrt(r * r + H * H);
+  }
+  /// Of integral(), but for a constant.
+  double second_integral(double r) const {
+    const double near = std::sqrt(r * r + e * e), far = std::sqrt(r * r + H * H);
+    return plane_strain * (r * (std::asinh(r / e) - std::asinh(r / H)) - near + far) - by_depth / (H * H) * far;
+  }
+  /// The mean of G over two parts of a line, a and b long, whose middles are r apart.
+  double mean(double r, double a, double b) const {
+    if (std::abs(r) >= far_apart * std::max(a, b)) return at(r);
+    const double half_sum = 0.5 * (a + b), half_difference = 0.5 * (a - b);
+    return (second_integral(r + half_sum) - second_integral(r + half_difference) - second_integral(r - half_difference) +
+            second_integral(r - half_sum)) /
+           (a * b);
   }
 };
 
@@ -46,6 +61,15 @@ double ContactKernel::between(double s, double t, double depth) const {
   const HalfSpace half_space(poissons_ratio_, depth);
   const double from_begin = s + t - 2.0 * face_.begin, from_end = 2.0 * face_.end - s - t;
   const double sum = half_space.at(s - t) + half_space.at(from_begin) + half_space.at(from_end);
+  if (end_.leaning[0] == 0.0) return sum;
+  return sum + LeaningEnd(end_, 0, depth).at(half_space.blunted(from_begin)) + LeaningEnd(end_, 1, depth).at(half_space.blunted(from_end));
+}
+
+double ContactKernel::between(const Range& one, const Range& other, double depth) const {
+  const HalfSpace half_space(poissons_ratio_, depth);
+  const double a = one.end - one.begin, b = other.end - other.begin, s = 0.5 * (one.begin + one.end), t = 0.5 * (other.begin + other.end);
+  const double from_begin = s + t - 2.0 * face_.begin, from_end = 2.0 * face_.end - s - t;
+  const double sum = half_space.mean(s - t, a, b) + half_space.mean(from_begin, a, b) + half_space.mean(from_end, a, b);
   if (end_.leaning[0] == 0.0) return sum;
   return sum + LeaningEnd(end_, 0, depth).at(half_space.blunted(from_begin)) + LeaningEnd(end_, 1, depth).at(half_space.blunted(from_end));
 }

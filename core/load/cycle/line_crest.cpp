@@ -137,7 +137,19 @@ class Lines {
     const std::size_t n = line.z.size();
     const double before = k > 0 ? influence(k - 1, k + 1) : 0.0, after = k + 2 < n ? influence(k, k + 2) : 0.0;
     const double next = k == 0 ? after : k + 2 == n ? before : 0.5 * (before + after);
-    return 0.5 * std::max(0.0, own - next) * (line.z[k + 1] - line.z[k]) / std::cos(lines_.model.pair.base_helix_angle);
+    const double structure = 0.5 * std::max(0.0, own - next) * (line.z[k + 1] - line.z[k]) / std::cos(lines_.model.pair.base_helix_angle);
+    return std::max(structure - even_load_compliance(line.begin + k), -0.5 * least_slope(line.begin + k));
+  }
+
+  /// Between a point and the next, what contact takes back of their loads.
+  double even_load_compliance(std::size_t point) const {
+    const Eigen::VectorXd& taken_back = lines_.at.even_load_compliance;
+    return taken_back.size() > 0 ? taken_back.segment<2>(static_cast<Eigen::Index>(point)).mean() : 0.0;
+  }
+  /// The smallest slope dc/dw of the laws of a point and the next, under the larger of their loads.
+  double least_slope(std::size_t point) const {
+    const double most = lines_.line_load.segment<2>(static_cast<Eigen::Index>(point)).maxCoeff();
+    return std::min(lines_.laws[point].slope(most), lines_.laws[point + 1].slope(most));
   }
 
   const LoadedLines& lines_;

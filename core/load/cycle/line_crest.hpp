@@ -28,7 +28,7 @@ struct LineCrest {
   std::array<double, 2> approach_shares{};  ///< in f_t there of what these two points approach by: they add up to 1
   double deflection{0.0};                   ///< f_t - g - s [mm]
   double seen_load{0.0};                    ///< w_s, what the points see there of the load [N/mm]
-  double compliance{0.0};                   ///< kappa, of the structure to what they do not see [mm^2/N]
+  double compliance{0.0};                   ///< kappa, of structure and contact to what they do not see, of either sign [mm^2/N]
   std::array<Point, 4> from{};
   std::size_t count{0};  ///< of these
 };
@@ -67,9 +67,10 @@ struct LoadedLines {
 /// the mesh moves have a crest as well. What they do not see is a triangle between two points. It moves the structure by more than
 /// its force spread out does: by as much as the points' own influence exceeds that on the next interval,
 ///
-///     kappa = (K_own - K_next) (distance of the points along the line)/2.
+///     kappa = (K_own - K_next) (distance of the points along the line)/2 - e.
 ///
-/// K_own is without what contact takes back on the diagonal for the law of an even load (ContactCouplingEffect): at the crest this law holds.
+/// K_own is without what contact takes back on the diagonal for the law of an even load, e (ContactCouplingEffect), which is taken back of the load on the crest.
+/// As much of e counts as leaves half of the law's slope: under a heavy load contact alone may no longer rise with it, see ContactKernel.
 /// Where points yield each for itself (thin slices) it is what they yield per line load, K_ii a_i. Departure: flanks that touch where less has been taken
 /// off, FlankTouchSearch, round the kink over R h' along the profile; the place taken is the end without relief.
 ///
