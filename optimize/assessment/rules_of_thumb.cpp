@@ -70,6 +70,13 @@ std::vector<Rule> lead_rules(const GearPair& pair, const RuleBasis& basis) {
 
 std::string joined(const std::string& a, const std::string& b, const char* between) { return a.empty() || b.empty() ? a + b : a + between + b; }
 
+/// Each variable by itself moved into its bounds.
+Eigen::VectorXd nearest_scaled(const DesignProblem& problem, const NamedDesign& design) {
+  std::vector<double> values;
+  for (const DesignVariable& variable : problem.task().variables) values.push_back(get(design.modification[variable.member], variable.parameter));
+  return problem.scaled_design(values).cwiseMax(0.0).cwiseMin(1.0);
+}
+
 }  // namespace
 
 RuleBasis rule_basis(const DesignProblem& problem) {
@@ -110,6 +117,33 @@ std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis&
     }
   }
   return designs;
+}
+
+std::vector<Eigen::VectorXd> within_bounds(const DesignProblem& problem, const std::vector<NamedDesign>& designs) {
+  std::vector<Eigen::VectorXd> found;
+  for (const NamedDesign& design : designs) {
+    const Eigen::VectorXd x = nearest_scaled(problem, design);
+    if (std::ranges::find(found, x) == found.end()) found.push_back(x);
+  }
+  return found;
+}
+
+std::vector<std::string> out_of_reach(const DesignProblem& problem, const NamedDesign& design) {
+  constexpr double noticed = 1e-7;  // mm or rad: far below what can be ground
+  const PerGear<Modification> nearest = problem.modification(nearest_scaled(problem, design));
+  for (const ParameterKind kind : {ParameterKind::Amount, ParameterKind::Extent}) {
+    std::vector<std::string> names;
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      for (const ModificationDescriptor& d : modification_parameters) {
+        // A number of both halves stands for them.
+        const bool is_half = std::ranges::any_of(modification_parameters, [&](const auto& o) { return o.half == d.key || o.other_half == d.key; });
+        const bool differs = std::abs(d.get(design.modification[m]) - d.get(nearest[m])) > noticed;
+        if (d.kind == kind && differs && !is_half) names.push_back(std::string(name_of(m)) + " " + std::string(d.name));
+      }
+    }
+    if (!names.empty()) return names;
+  }
+  return {};
 }
 
 }  // namespace flankwright

@@ -45,4 +45,10 @@ double relief_height(const Gear& gear, double length);
 /// Short relief and relief to single contact are rules of pairs with 1 < eps_alpha < 2 and left out of others.
 std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis& basis);
 
+/// The scaled designs nearest to these: a variable has their value, or the bound that is next to it, and everything else is as the task has it. Each design once.
+std::vector<Eigen::VectorXd> within_bounds(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
+
+/// The amounts of a design that the variables of a task do not reach: "pinion tip relief". Where amounts are the same, the extents.
+std::vector<std::string> out_of_reach(const DesignProblem& problem, const NamedDesign& design);
+
 }  // namespace flankwright

@@ -32,6 +32,7 @@ enum class AssessedDesign { Shown, BeforeRounding, BeforeChoices, WithoutScatter
 struct Assessment {
   std::optional<RuleBasis> basis;          ///< of the rules, where they were asked for
   std::vector<ComparedDesign> rules;       ///< empty: not asked for
+  std::vector<std::string> out_of_reach;   ///< what the best of them has that the variables do not reach, see out_of_reach()
   std::vector<VariantSearch> variants;     ///< one a placement of the levels; empty: not asked for
   std::optional<Validation> validation;    ///< of the design that is shown; none: not asked for
   AssessedDesign is_of{};                  ///< what the optimum and its usual signs are of
@@ -45,9 +46,10 @@ struct Assessment {
 };
 
 /// @param problem  that was optimised; its limits may be tighter than those asked for, by what extremes between the positions exceed those at them
+/// @param coarse   rules that the search has compared under these limits
 /// @param asked    the task with the limits asked for, by which other designs are judged and which sentences name
 Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
-                          const ProgressReport& progress);
+                          CoarseComparison& coarse, const ProgressReport& progress);
 
 /// The designs before and after, and the best rule of thumb where there is one, over draws.
 /// @param drawn  load cases of the draws

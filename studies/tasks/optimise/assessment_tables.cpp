@@ -72,9 +72,11 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
     beside("best rule of thumb, " + best->design.name, best->objective);
     constexpr double better = 0.99;  // of the optimum: less is within what steps and resolution change
     if (best->objective < better * optimum) {
-      out +=
-          "that rule of thumb is better than the design found, which is a local optimum: more optimise.starts, or a start at the rule's amounts, may find "
-          "a better one\n";
+      // A search goes on from the rules that its variables reach, see OptimiseSearch::take_better_rule().
+      out += assessment.out_of_reach.empty()
+                 ? "that rule of thumb is better than the design found, which is a local optimum: more optimise.starts may find a better one\n"
+                 : fmt::format("that rule of thumb is better than the design found; it has what the variables do not reach: {}\n",
+                               fmt::join(assessment.out_of_reach, ", "));
     }
   } else if (!assessment.rules.empty()) {
     out += no_rule_in_words(assessment.rules) + "\n";

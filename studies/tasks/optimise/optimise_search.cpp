@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/assessment/rules_of_thumb.hpp"
 #include "optimize/assessment/usual_signs.hpp"
 #include "optimize/design/between_positions.hpp"
 #include "optimize/design/grinding/grindable_design.hpp"
@@ -47,6 +48,7 @@ TwoLevelDesign OptimiseSearch::find(DesignProblem& problem, const DesignOptions&
   DesignOptions exact = options;
   exact.to_grind = false;
   TwoLevelDesign found = optimise_by_two_levels(problem, exact);
+  take_better_rule(problem, exact, found);
   take_more_positions(problem, exact, found);
   take_better_usual_design(problem, exact, found);
   keep_accuracy(problem, exact, found);
@@ -228,13 +230,37 @@ void OptimiseSearch::take_better_usual_design(DesignProblem& problem, const Desi
   const std::optional<UsualSigns> usual = find_usual_signs(problem, best, left_of(options.solver, found.design).max_seconds);
   if (!usual || !usual->design || !(usual->price < -worth_going_on)) return;
   const double seconds = found.design.seconds;
+  go_on_from_better(problem, options, start_at(problem, *usual->design), found);
+  found.design.seconds = seconds + clock.seconds();
+}
+
+void OptimiseSearch::take_better_rule(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  const DesignReport& best = found.design.after;
+  if (!is_usable(best) || best.analysis.cycles.empty() || !problem.task().later_objectives.empty()) return;
+  const Stopwatch clock;
+  const double seconds = found.design.seconds;
+  run_.report("trying rules of thumb", 0, 1, "");
+  const std::vector<Eigen::VectorXd> starts = within_bounds(problem, rules_of_thumb(problem.task(), rule_basis(problem)));
+  std::vector<NamedDesign> designs;
+  for (const Eigen::VectorXd& x : starts) designs.push_back({"", "", problem.modification(x)});
+  const std::vector<ComparedDesign> rules = compare_designs_by_two_levels(problem, designs, &compared_rules_);
+  const ComparedDesign* const rule = best_of(rules);
+  const bool is_infeasible = found.design.status == SolverStatus::Infeasible;
+  if (rule != nullptr && (is_infeasible || relative_increase(best.objective, rule->objective) < -worth_going_on))
+    go_on_from_better(problem, options, starts[static_cast<std::size_t>(rule - rules.data())], found);
+  found.design.seconds = seconds + clock.seconds();
+}
+
+void OptimiseSearch::go_on_from_better(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found) {
+  const Stopwatch clock;
   TwoLevelDesign further = found;
-  problem.set_start(start_at(problem, *usual->design));
+  problem.set_start(x);
   go_on(problem, options, further);
-  if (further.design.status == SolverStatus::Infeasible || !(further.design.after.objective < found.design.after.objective)) return;
+  const bool was_infeasible = found.design.status == SolverStatus::Infeasible;
+  if (further.design.status == SolverStatus::Infeasible) return;
+  if (!was_infeasible && !(further.design.after.objective < found.design.after.objective)) return;
   found = std::move(further);
   found.fine.seconds += clock.seconds();
-  found.design.seconds = seconds + clock.seconds();
 }
 
 void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const DesignOptions& options, std::vector<double> by_intervals,

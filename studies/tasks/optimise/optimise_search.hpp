@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "optimize/assessment/compared_design.hpp"
 #include "optimize/design/two_level.hpp"
 #include "studies/analysis/study_run.hpp"
 
@@ -18,6 +19,8 @@ class OptimiseSearch {
   /// Searches from all starts, takes as many positions and intervals as the design needs, and chooses what can be ground.
   /// @param problem  of task(); afterwards at the resolution that was reached, and with limits that keep those of the study where they are seen more finely
   TwoLevelDesign find(DesignProblem& problem, const DesignOptions& options);
+  /// Rules of thumb that it has compared coarsely, under the limits asked for.
+  CoarseComparison& compared_rules() { return compared_rules_; }
 
   /// By how much a design exceeds the constraint that it exceeds most [-, relative to the limit]; below 0: it keeps all.
   double excess_of(const DesignReport& report) const;
@@ -54,6 +57,11 @@ class OptimiseSearch {
   bool may_look_finer() const;
   /// Continues from a design, or from optima beside it, at a resolution that has changed.
   void go_on_at_resolution(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);
+  /// A search may get stuck at a design that is worse than a rule of thumb. Where the best rule within the bounds of the variables is better, or keeps constraints that no design found
+  /// keeps, the search goes on from there. Lists of objectives are left out as for take_better_usual_design().
+  void take_better_rule(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+  /// Takes what the search finds from a scaled design, if that is better.
+  void go_on_from_better(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);
   /// A search may get stuck at a design that is seldom ground. Where the best design within the limits that flanks have as a rule is better, the search goes on
   /// from there. A list of objectives is left out, because each of its objectives has a limit from the ones before.
   void take_better_usual_design(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
@@ -72,6 +80,7 @@ class OptimiseSearch {
   StudyRun& run_;
   StudyResults& results_;
   DesignTask task_;
+  CoarseComparison compared_rules_;
 };
 
 }  // namespace flankwright::studies
