@@ -203,10 +203,12 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
 
 }  // namespace
 
-CycleErrors CycleErrorParts::sum() const {
+CycleErrors CycleErrorParts::sum(const CycleSummary& summary) const {
   CycleErrors both;
   for (const auto of : CycleErrors::single()) both.*of = points.*of + positions.*of;
   for (std::size_t k = 0; k < points.te_harmonics.size(); ++k) both.te_harmonics.push_back(points.te_harmonics[k] + positions.te_harmonics[k]);
+  const double edge_above = summary.edge_stress + both.edge_stress - summary.peak_contact_stress;
+  if (!std::isnan(both.peak_contact_stress)) both.peak_contact_stress = std::fmax(both.peak_contact_stress, edge_above);
   return both;
 }
 
@@ -234,10 +236,14 @@ double mean_error(const std::vector<double>& fine, const std::vector<double>& co
   return mean_error_by_points(d) + mean_error_by_positions(fine);
 }
 
-double peak_error(const PeakReadings& of) {
+double peak_error_by_points(const PeakReadings& of) {
   std::vector<Sample> samples = evenly_spaced(every(of.fine, of.fine.size() / of.coarse.size()), of.coarse);
   for (std::size_t i = 0; i < of.between.size(); ++i) samples.push_back({of.between[i], of.fine_between[i], of.coarse_between[i]});
-  return of_peaks * peak_difference(samples, of.coarse.size()) + (std::isnan(of.unseen) ? unseen_rise(of.fine) : of.unseen);
+  return of_peaks * peak_difference(samples, of.coarse.size());
+}
+
+double error_beside_finer(double change, double beyond, double stated) {
+  return std::isgreater(change, stated) ? change + beyond : std::fmin(stated, change + beyond);  // the one that is a number
 }
 
 CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,
@@ -247,14 +253,11 @@ CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCyc
   of_finer.te_mean *= of_order_one;
   of_finer.te_peak_to_peak *= of_order_one;
   for (double& harmonic : of_finer.te_harmonics) harmonic *= of_order_one;
-  const auto better = [](double change, double beyond, double given) {
-    return std::isgreater(change, given) ? change + beyond : std::fmin(given, change + beyond);  // the one that is a number
-  };
   CycleErrors errors;
-  for (const auto of : CycleErrors::single()) errors.*of = better(std::abs(summary.*of - finer_summary.*of), of_finer.*of, stated.*of);
+  for (const auto of : CycleErrors::single()) errors.*of = error_beside_finer(std::abs(summary.*of - finer_summary.*of), of_finer.*of, stated.*of);
   for (std::size_t k = 0; k < stated.te_harmonics.size(); ++k) {
     errors.te_harmonics.push_back(
-        better(std::abs(summary.te_harmonics[k] - finer_summary.te_harmonics[k]), of_finer.te_harmonics[k], stated.te_harmonics[k]));
+        error_beside_finer(std::abs(summary.te_harmonics[k] - finer_summary.te_harmonics[k]), of_finer.te_harmonics[k], stated.te_harmonics[k]));
   }
   return errors;
 }

@@ -12,7 +12,9 @@ using CycleErrors = CycleValues<double, std::vector<double>>;
 /// Errors by what brings them: points along the contact lines, or positions over the cycle.
 struct CycleErrorParts {
   CycleErrors points, positions;
-  CycleErrors sum() const;
+  /// A stress on tip edges, with its error, is part of the peak contact stress: the error of that reaches as far.
+  /// @param summary  that is shown, with extremes between the positions
+  CycleErrors sum(const CycleSummary& summary) const;
 };
 
 /// The positions of an evenly spaced cycle at which the coarser one is solved: every second where their number is even
@@ -65,11 +67,16 @@ struct PeakReadings {
   std::vector<double> fine, coarse;                      ///< at the positions, as for mean_error(); >= 0
   std::vector<double> between{};                         ///< phases of extremes between the positions [base pitches]; empty: not known
   std::vector<double> fine_between{}, coarse_between{};  ///< at these
-  double unseen{not_given};                              ///< by how much the largest value may still be larger after a search; NaN: it was not sought
 };
 
-/// Likewise of the largest value of a reading, as estimate_errors() has it for the peak contact stress.
-double peak_error(const PeakReadings& of);
+/// Likewise of the largest value of a reading by points, as estimate_errors() has it for the peak contact stress.
+double peak_error_by_points(const PeakReadings& of);
+
+/// Of a figure that is held against a finer one.
+/// @param change  between both
+/// @param beyond  what the finer one may be off by itself
+/// @param stated  before; NaN: not estimated
+double error_beside_finer(double change, double beyond, double stated);
 
 /// The errors by points of a cycle that is held against a finer one, with more intervals at the same positions: each is what the two differ by, and the finer
 /// one's own error, which estimate_errors() takes from the same difference; that of the transmission error is doubled, which makes the sum that of order one.

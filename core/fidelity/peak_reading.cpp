@@ -21,9 +21,8 @@ PositionReading largest_of_points(PointReading reading) {
 
 PeakReading peak_of(const PositionReading& reading, const SolvedCycles& of, const std::vector<double>& extremes, double unseen) {
   PeakReadings all{of.fine.readings(reading), of.coarse.readings(reading)};
-  all.unseen = unseen;
   const std::vector<double> between = of.fine_between.readings(reading);
-  PeakReading peak{std::ranges::max(all.fine), not_given};
+  PeakReading peak{.value = std::ranges::max(all.fine)};
   for (const double value : between) peak.value = std::max(peak.value, value);
   if (all.coarse.empty()) return peak;
   if (of.coarse_between.cycle != nullptr) {
@@ -31,8 +30,15 @@ PeakReading peak_of(const PositionReading& reading, const SolvedCycles& of, cons
     all.fine_between = between;
     all.coarse_between = of.coarse_between.readings(reading);
   }
-  peak.error = peak_error(all);
+  peak.by_points = peak_error_by_points(all);
+  peak.by_positions = std::isnan(unseen) ? unseen_rise(all.fine) : unseen;
   return peak;
+}
+
+double point_error_beside_finer(const PositionReading& reading, const PeakReading& stated, const SolvedCycle& cycle, const SolvedCycle& finer) {
+  const PeakReadings both{finer.readings(reading), cycle.readings(reading)};
+  const double change = std::abs(std::ranges::max(both.fine) - std::ranges::max(both.coarse));
+  return error_beside_finer(change, peak_error_by_points(both), stated.by_points);
 }
 
 double untouched_edge_error(const SolvedCycles& of, const CycleExtremes& extremes, Member gear) {
@@ -43,7 +49,7 @@ double untouched_edge_error(const SolvedCycles& of, const CycleExtremes& extreme
   const PositionReading raised = [&](const MeshPosition& at, const LoadedPosition& loaded) {
     return std::fmax(0.0, edge_approach(at, loaded, gear).approach + deflection);
   };
-  const double reach = extremes.edge_approach[gear] + peak_of(raised, of, extremes.phases, 0.0).error;
+  const double reach = extremes.edge_approach[gear] + peak_of(raised, of, extremes.phases, 0.0).by_points;
   if (!(reach > 0.0)) return 0.0;
   EdgeApproach nearest;
   const MeshPosition* at = nullptr;

@@ -12,9 +12,12 @@ using PositionReading = std::function<double(const MeshPosition&, const LoadedPo
 /// The largest of a reading over the points of a position; 0 without any.
 PositionReading largest_of_points(PointReading reading);
 
-/// The largest value of a reading over positions and extremes, and its estimated error, in its own unit.
+/// The largest value of a reading over positions and extremes, and its estimated error by what brings it, in its own unit.
 struct PeakReading {
-  double value{not_given}, error{not_given};  ///< >= 0; NaN: not estimated
+  double value{not_given};
+  double by_points{not_given}, by_positions{not_given};  ///< >= 0; NaN: not estimated
+
+  double error() const { return by_points + by_positions; }
 };
 
 /// A solved cycle and its mesh; null: there is none.
@@ -38,6 +41,8 @@ struct SolvedCycles {
 /// @param extremes  phases of both cycles between the positions [base pitches]
 /// @param unseen    by the search for extremes; NaN: there was none
 PeakReading peak_of(const PositionReading& reading, const SolvedCycles& of, const std::vector<double>& extremes, double unseen);
+/// Its error by points beside a finer cycle at the same positions, as point_errors_beside_finer() has it for the peak contact stress.
+double point_error_beside_finer(const PositionReading& reading, const PeakReading& stated, const SolvedCycle& cycle, const SolvedCycle& finer);
 
 /// The error of the stress on the edges of a gear that are not seen to touch [MPa]: the pressure at the point nearest to its mate, if the edge were pressed in as far as the
 /// errors of its approach allow; 0 where it stays clear all the same. The pressure grows as the square root of the approach, so that a small one decides.

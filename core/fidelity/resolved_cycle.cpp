@@ -63,7 +63,7 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
     }
     const CycleExtremes* const sought = resolving.seek_extremes ? &resolved.extremes : nullptr;
     resolved.error_parts = estimate_errors(cycle, resolved.summary, *resolving.coarse, sought, between);
-    resolved.errors = resolved.error_parts.sum();
+    resolved.errors = resolved.error_parts.sum(resolved.summary);
   }
   SolvedCycles of{.fine = {&model, &cycle}};
   if (resolved.extreme_mesh) of.fine_between = {resolved.extreme_mesh.get(), &resolved.extreme_cycle};
@@ -76,7 +76,7 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
       const double error = untouched_edge_error(of, resolved.extremes, gear);
       resolved.error_parts.positions.edge_stress = std::max(resolved.error_parts.positions.edge_stress, error);
     }
-    resolved.errors = resolved.error_parts.sum();
+    resolved.errors = resolved.error_parts.sum(resolved.summary);
   }
   for (std::size_t i = 0; i < resolving.further.size(); ++i) {
     const std::vector<double>& unseen = resolved.extremes.unseen_further;
@@ -86,12 +86,17 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
   return resolved;
 }
 
-void hold_against_finer(const MeshModel& model, const LoadedCycle& cycle, const MeshModel& finer_model, const LoadedCycle& finer,
-                        ResolvedCycle& resolved) {
+void hold_against_finer(const SolvedCycle& cycle, const SolvedCycle& finer, const std::vector<PointReading>& further, ResolvedCycle& resolved) {
   CycleErrors& points = resolved.error_parts.points;
-  points = point_errors_beside_finer(points, cycle, summarise(model, cycle), finer, summarise(finer_model, finer));
+  points =
+      point_errors_beside_finer(points, *cycle.cycle, summarise(*cycle.model, *cycle.cycle), *finer.cycle, summarise(*finer.model, *finer.cycle));
   join_edge_to_peak(resolved.summary, points);
-  resolved.errors = resolved.error_parts.sum();
+  resolved.errors = resolved.error_parts.sum(resolved.summary);
+  if (!cycle.cycle->usable() || !finer.cycle->usable()) return;
+  for (std::size_t i = 0; i < std::min(further.size(), resolved.further.size()); ++i) {
+    PeakReading& stated = resolved.further[i];
+    stated.by_points = point_error_beside_finer(largest_of_points(further[i]), stated, cycle, finer);
+  }
 }
 
 CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved) {

@@ -38,9 +38,9 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
                             double pinion_torque, const CycleResolving& resolving, const std::vector<MeshParameter>& parameters = {});
 
 /// Takes the errors by points from a finer cycle, see point_errors_beside_finer().
-/// @param model  of `cycle`, at the phases of `finer_model`
-void hold_against_finer(const MeshModel& model, const LoadedCycle& cycle, const MeshModel& finer_model, const LoadedCycle& finer,
-                        ResolvedCycle& resolved);
+/// @param cycle, finer  usable or not, with their meshes, at the same phases
+/// @param further       CycleResolving::further of `resolved`
+void hold_against_finer(const SolvedCycle& cycle, const SolvedCycle& finer, const std::vector<PointReading>& further, ResolvedCycle& resolved);
 
 /// Derivatives of ResolvedCycle::summary: as summary_gradient(), of the position that has the extreme, with its phase
 /// held. On a smooth curve that is exact, for at its extreme the phase does not matter; where a kink moves with the

@@ -32,6 +32,23 @@ FilmCondition film_condition(const GearPair& pair, double face_width, double for
   return given;
 }
 
+std::optional<Oil> oil_of(const LifeModel& life, const Operation& operation) {
+  if (!life.lubricant) return std::nullopt;
+  const double temperature = std::isnan(operation.temperature) ? life.lubricant->temperature : operation.temperature;
+  return Oil{&*life.lubricant, temperature, life.roughness};
+}
+
+std::optional<FilmCondition> film_condition_of(const MeshModel& model, const LifeModel& life, const Operation& operation, double force) {
+  const std::optional<Oil> oil = oil_of(life, operation);
+  if (!oil || !(operation.speed > 0.0)) return std::nullopt;
+  const FilmCondition given{.speed = operation.speed,
+                            .oil_temperature = oil->temperature,
+                            .bulk_temperature = life.bulk_temperature,
+                            .roughness = oil->roughness,
+                            .overload = operation.overload()};
+  return film_condition(model.pair, model.face_width, force, *oil->lubricant, given);
+}
+
 RollingSpeeds rolling_speeds(const GearPair& pair, const ContactPoint& point, double speed) {
   return {speed * pair.pinion.roll_length_at(point.pinion_radius) / metre,
           speed / pair.gear_ratio() * pair.wheel.roll_length_at(point.wheel_radius) / metre};

@@ -1,7 +1,11 @@
 #pragma once
 
+#include <optional>
+
 #include "core/load/cycle/mesh_cycle.hpp"
+#include "core/rating/life_model.hpp"
 #include "core/rating/lubricant.hpp"
+#include "core/rating/operation.hpp"
 
 namespace flankwright {
 
@@ -28,6 +32,20 @@ struct FilmCondition {
 /// @param force  normal to the flanks [N], > 0
 /// @param given  speed, oil_temperature, roughness and overload; a bulk_temperature that is given is kept
 FilmCondition film_condition(const GearPair& pair, double face_width, double force, const Lubricant& lubricant, FilmCondition given);
+
+/// The oil of a load case, as far as it is known.
+struct Oil {
+  const Lubricant* lubricant;
+  double temperature, roughness;  ///< [deg C], Ra [um]
+};
+
+/// With the load case's own temperature, else the lubricant's; nothing without a lubricant.
+/// @param life  lives on
+std::optional<Oil> oil_of(const LifeModel& life, const Operation& operation);
+
+/// film_condition() of a load case; nothing without lubricant or speed.
+/// @param force  of the mesh [N], > 0
+std::optional<FilmCondition> film_condition_of(const MeshModel& model, const LifeModel& life, const Operation& operation, double force);
 
 /// Speeds of the flanks at a contact point, along the profile in the transverse section [m/s].
 struct RollingSpeeds {

@@ -273,7 +273,8 @@ void ParetoFront::mark_dominated() {
   }
 }
 
-void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, const std::vector<Eigen::VectorXd>& known, ParetoFront& front) {
+void resolve_front(const DesignProblem& problem, const std::vector<OutputConstraint>& asked, const DesignResolver& resolve,
+                   const std::vector<Eigen::VectorXd>& known, ParetoFront& front) {
   DesignProblem valued = with_all(problem, front.objectives);
   const auto shown = [&](ParetoPoint point) {
     const DesignAnalysis& analysis = valued.analyse(point.x, false);
@@ -284,8 +285,9 @@ void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, 
     resolve_report(problem, cycles, report);
     point.constraint_values = report.constraint_values;
     point.modification_values = report.modification_values;
-    for (std::size_t c = 0; c < problem.task().constraints.size(); ++c)
-      point.constraint_violation = std::max(point.constraint_violation, problem.task().constraints[c].excess(report.constraint_values[c]));
+    point.constraint_violation = problem.violation(analysis.modification);
+    for (std::size_t c = 0; c < asked.size(); ++c)
+      point.constraint_violation = std::max(point.constraint_violation, asked[c].excess(report.constraint_values[c]));
     return point;
   };
   for (ParetoPoint& point : front.points) point = shown(std::move(point));

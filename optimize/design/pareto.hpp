@@ -67,7 +67,9 @@ inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<O
 
 /// Gives the points of a front their values with the extremes between positions, as the designs before and after an optimisation have them, and judges anew which
 /// are dominated and which exceed a limit. The designs stay where they are, but a known one takes the place of the best of an objective that it is below.
+/// @param asked  the constraints of the task with the limits asked for, by which points are judged; those of the problem may be tighter
 /// @param known  scaled designs, as for trace_front()
-void resolve_front(const DesignProblem& problem, const DesignResolver& resolve, const std::vector<Eigen::VectorXd>& known, ParetoFront& front);
+void resolve_front(const DesignProblem& problem, const std::vector<OutputConstraint>& asked, const DesignResolver& resolve,
+                   const std::vector<Eigen::VectorXd>& known, ParetoFront& front);
 
 }  // namespace flankwright

@@ -65,9 +65,9 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
     of.scuffing_safety = scuffing_safety(life.scuffing_temperature, of.contact_temperature, condition->oil_temperature);
   if (loaded.resolved.further.empty()) return;
   CaseLifeErrors& errors = of.errors;
-  errors.film = of.film * of.film * loaded.resolved.further[FilmReadings::thinness].error;  // the change of 1/x is x^-2 times that of x
+  errors.film = of.film * of.film * loaded.resolved.further[FilmReadings::thinness].error();  // the change of 1/x is x^-2 times that of x
   errors.micropitting_safety = errors.film / life.permissible_film;
-  errors.flash_temperature = errors.contact_temperature = loaded.resolved.further[FilmReadings::flash].error;
+  errors.flash_temperature = errors.contact_temperature = loaded.resolved.further[FilmReadings::flash].error();
   errors.scuffing_safety = of.scuffing_safety * errors.contact_temperature / (of.contact_temperature - condition->oil_temperature);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "core/fidelity/cycle_extremes.hpp"
@@ -9,19 +8,6 @@
 #include "core/rating/operation.hpp"
 
 namespace flankwright::studies {
-
-/// The oil of a load case, as far as it is known.
-struct Oil {
-  const Lubricant* lubricant;
-  double temperature, roughness;  ///< [deg C], Ra [um]
-};
-
-/// Nothing where the study has no lubricant.
-std::optional<Oil> oil_of(const LifeModel& life, const Operation& operation);
-
-/// Of film and temperatures; nothing without lubricant or speed.
-/// @param force  of the mesh [N]
-std::optional<FilmCondition> film_condition_of(const MeshModel& model, const LifeModel& life, const Operation& operation, double force);
 
 /// Entries of film_readings().
 struct FilmReadings {

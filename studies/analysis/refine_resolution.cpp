@@ -21,6 +21,20 @@ ResolutionLevel level_of(const JudgedCase& of, const StudyResults& results) {
   return level;
 }
 
+struct Widest {
+  const JudgedCase* of{nullptr};  ///< null: no error was estimated
+  double error{0.0};              ///< headline_error()
+};
+
+Widest widest(const std::vector<JudgedCase>& cases) {
+  Widest found;
+  for (const JudgedCase& of : cases) {
+    const double error = headline_error(of.resolved->errors, of.resolved->summary, *of.cycle);
+    if (std::isgreater(error, found.error)) found = {&of, error};
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<JudgedCase> judged_cases(const StudyResults& results) {
@@ -32,14 +46,7 @@ std::vector<JudgedCase> judged_cases(const StudyResults& results) {
 }
 
 bool refine_resolution(const std::vector<JudgedCase>& cases, StudyResults& results, int most_doublings) {
-  const JudgedCase* worst = nullptr;
-  double largest = 0.0;
-  for (const JudgedCase& of : cases) {
-    const double error = headline_error(of.resolved->errors, of.resolved->summary, *of.cycle);
-    if (!std::isgreater(error, largest)) continue;  // quiet where none was estimated
-    largest = error;
-    worst = &of;
-  }
+  const auto [worst, largest] = widest(cases);
   Fidelity& fidelity = results.study.fidelity;
   Cycle& cycle = results.study.cycle;
   AutomaticResolution resolution{.accuracy = fidelity.resolution_accuracy,
@@ -57,12 +64,20 @@ bool refine_resolution(const std::vector<JudgedCase>& cases, StudyResults& resul
     cycle.positions = resolution.positions;
     return true;
   }
-  const bool is_given = mostly_by_points(*worst->resolved, *worst->cycle) ? !fidelity.automatic_intervals : !cycle.automatic_positions;
-  if (is_given || results.fidelity_choice) return false;
-  results.notes.push_back(
-      fmt::format("the figures of scene \"{}\" are known to {:.3g} % only, with {} intervals along a contact line and {} mesh positions",
-                  worst->scene, 100.0 * largest, fidelity.quadrature.intervals, results.phases.size()));
   return false;
+}
+
+void note_what_stays_wide(const std::vector<JudgedCase>& cases, StudyResults& results) {
+  const Fidelity& fidelity = results.study.fidelity;
+  const auto [worst, largest] = widest(cases);
+  if (worst == nullptr || largest <= fidelity.resolution_accuracy || results.fidelity_choice) return;
+  const bool is_given = mostly_by_points(*worst->resolved, *worst->cycle) ? !fidelity.automatic_intervals : !results.study.cycle.automatic_positions;
+  if (is_given) return;
+  const bool is_stress = largest == worst->resolved->errors.peak_contact_stress / worst->resolved->summary.peak_contact_stress;
+  results.notes.push_back(
+      fmt::format("the {} of scene \"{}\" at {:.5g} N·m is known to {:.3g} % only, with {} intervals along a contact line and {} mesh positions",
+                  is_stress ? "contact stress" : "transmission error", worst->scene, worst->torque / units::newton_metre, 100.0 * largest,
+                  fidelity.quadrature.intervals, results.phases.size()));
 }
 
 void state_resolution(StudyResults& results) {

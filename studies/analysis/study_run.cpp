@@ -268,6 +268,7 @@ void StudyRun::analyse() {
   }
   leave_out_small_effects(scenes);
   hold_against_finer(0);
+  note_what_stays_wide(judged_cases(results_), results_);
   results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", clock.seconds()});
   rate();
 }

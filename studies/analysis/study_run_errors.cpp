@@ -58,7 +58,7 @@ void widen_edge_errors(const CycleErrors& stated, const CycleSummary& summary, c
   widened(&CycleErrors::edge_stress, stress, summary.edge_stress);
   widened(&CycleErrors::tip_edge_share, share, summary.tip_edge_share);
   join_edge_to_peak(summary, resolved.error_parts.points);
-  resolved.errors = resolved.error_parts.sum();
+  resolved.errors = resolved.error_parts.sum(resolved.summary);
 }
 
 }  // namespace
@@ -120,6 +120,7 @@ void StudyRun::hold_against_finer(std::size_t first) {
     cases.push_back({{loaded.scene, loaded.torque, &results_.models[loaded.model], &loaded.cycle, &loaded.resolved},
                      &loaded.condition,
                      &loaded.resolved,
+                     loaded.operation,
                      loaded.design == "after",
                      loaded.compared_intervals});
     of.push_back(&loaded);
@@ -149,6 +150,7 @@ void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
     const bool is_known = of.is_found && mesh_of_search(placement, {quadrature, results_.phases});
     if (is_wide || is_known) held[placement].push_back({&of, is_wide});
   }
+  const std::shared_ptr<const LifeModel> life = life_model(results_.study);
   const std::vector<std::pair<MeshPlacement, std::vector<Held>>> placed(held.begin(), held.end());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
     std::shared_ptr<const MeshModel> known = mesh_of_search(placed[i].first, {quadrature, results_.phases});
@@ -158,7 +160,9 @@ void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
       const double torque = of->judged.torque;
       const LoadedCycle cycle = analyse_halves(finer, *of->condition, torque);
       const CycleErrors stated = of->resolved->error_parts.points;
-      flankwright::hold_against_finer(*of->judged.model, *of->judged.cycle, finer, cycle, *of->resolved);
+      const SolvedCycle shown{of->judged.model, of->judged.cycle};
+      const auto further = life ? film_readings(*shown.model, *life, of->operation, shown.cycle->force) : std::vector<PointReading>();
+      flankwright::hold_against_finer(shown, {&finer, &cycle}, further, *of->resolved);
       const std::vector<double>& phases = of->resolved->extremes.phases;
       if (is_wide && !phases.empty() && stated.edge_stress > 0.0) {
         const MeshModel between = mesh(placed[i].first, {quadrature, phases}, nullptr, results_.shafts.get(), {});

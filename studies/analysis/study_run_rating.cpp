@@ -19,10 +19,12 @@ namespace flankwright::studies {
 
 namespace {
 
-/// Ratios of peaks are known better than the peaks: the intervals that an analysis begins with do, where the study gives none.
+/// The intervals of the analysis, as far as it takes more than it begins with: ratios of peaks are known better than the peaks, and each load case is
+/// solved under several conditions.
 Quadrature rating_quadrature(const Fidelity& fidelity) {
+  constexpr int enough = 24;
   Quadrature quadrature = fidelity.quadrature;
-  if (fidelity.automatic_intervals) quadrature.intervals = std::min(quadrature.intervals, AutomaticResolution{}.intervals);
+  if (fidelity.automatic_intervals) quadrature.intervals = std::min(quadrature.intervals, enough);
   return quadrature;
 }
 

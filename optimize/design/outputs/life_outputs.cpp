@@ -62,14 +62,7 @@ Film film_under(double force, const ObjectiveTerm& term, const LoadedScene& scen
   const LifeModel& life = life_of(term, scene);
   if (!life.lubricant) throw InvalidInput(term.name, "no lubricant", "a table [lubricant]");
   if (scene.operation == nullptr || !(scene.operation->speed > 0.0)) throw InvalidInput(term.name, "no speed", "load.speed, or a speed in every bin");
-  FilmCondition condition;
-  condition.speed = scene.operation->speed;
-  condition.oil_temperature = std::isnan(scene.operation->temperature) ? life.lubricant->temperature : scene.operation->temperature;
-  condition.bulk_temperature = life.bulk_temperature;
-  condition.roughness = life.roughness;
-  condition.overload = scene.operation->overload();
-  const MeshModel& model = scene.model;
-  return {*life.lubricant, film_condition(model.pair, model.face_width, force, *life.lubricant, condition)};
+  return {*life.lubricant, *film_condition_of(scene.model, life, *scene.operation, force)};
 }
 
 Film film_of(const ObjectiveTerm& term, const LoadedScene& scene) { return film_under(scene.cycle.force, term, scene); }

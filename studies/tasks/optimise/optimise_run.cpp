@@ -44,7 +44,7 @@ class OptimiseRun {
       problem.set_start({});  // the file's own values again
       const std::vector<Eigen::VectorXd> known{problem.scaled_design(found_.design.after.variables).cwiseMax(0.0).cwiseMin(1.0)};
       found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, known);
-      if (seeks_extremes(study)) resolve_front(problem, between, known, *found_.front);
+      if (seeks_extremes(study)) resolve_front(problem, found_.task.constraints, between, known, *found_.front);
       results_.steps.push_back({"front", "compromises of several objectives", clock.seconds()});
     }
     const DesignResult& design = found_.design;

@@ -194,6 +194,7 @@ void OptimiseSearch::keep_accuracy(DesignProblem& problem, const DesignOptions& 
       held.push_back({{scene.name, scene.torque, &problem.model(static_cast<int>(i)), &best.analysis.cycles[i], &resolved[i]},
                       &scene.condition,
                       &resolved[i],
+                      scene.operation,
                       true});
     }
     if (may_look_finer()) run_.hold_against_finer(held);

@@ -233,7 +233,7 @@ TEST_CASE("The largest value of a further reading lies between the positions, an
   CAPTURE(resolved.extremes.looked_at, largest(model));
   CHECK(resolved.further[0].value == Approx(many).epsilon(kSearch + kPositions));
   const double fine = largest(mesh_of(gears, {QuadratureRule::Graded, 32})(equally_spaced_phases(256)));
-  CHECK(std::abs(resolved.further[0].value - fine) <= resolved.further[0].error + kPositions * fine);
+  CHECK(std::abs(resolved.further[0].value - fine) <= resolved.further[0].error() + kPositions * fine);
 }
 
 TEST_CASE("Without load, or with too few positions, there is nothing to seek", "[core][load][extremes]") {

@@ -108,7 +108,7 @@ Errors compare(const std::string& text, int finer) {
            std::abs(shown.summary.peak_contact_stress - stress) / stress},
           in_units(shown.errors.points),
           in_units(shown.errors.positions),
-          in_units(shown.errors.sum())};
+          in_units(shown.errors.sum(shown.summary))};
 }
 
 struct Statistics {
