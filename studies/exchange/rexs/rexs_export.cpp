@@ -13,6 +13,7 @@
 #include "core/flank/natural_twist.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/study_file/grid_file.hpp"
+#include "studies/exchange/rexs/model_builder.hpp"
 #include "studies/exchange/rexs/study_text.hpp"
 
 namespace flankwright::studies::rexs {
@@ -22,20 +23,19 @@ namespace {
 constexpr std::array<std::string_view, 9> versions{"1.0", "1.1", "1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "2.0"};
 constexpr int topography_points = 25;  ///< along the profile and along the face, where no grid says otherwise
 
-class Export {
+class Export : private ModelBuilder {
  public:
   Export(const Study& study, const RexsExportOptions& options)
-      : study_(study),
+      : ModelBuilder(options.version),
+        study_(study),
         pair_(make_gear_pair(study.pair)),
-        modification_(analysed_modification(study, study_effects(study))),
-        version_(options.version) {
-    if (std::ranges::find(versions, version_) == versions.end()) {
-      throw InvalidInput("version of REXS", version_, fmt::format("{}", fmt::join(versions, ", ")));
+        modification_(analysed_modification(study, study_effects(study))) {
+    if (std::ranges::find(versions, options.version) == versions.end()) {
+      throw InvalidInput("version of REXS", options.version, fmt::format("{}", fmt::join(versions, ", ")));
     }
-    result_.model.version = version_;
-    result_.model.application = "Flankwright";
-    result_.model.application_version = version();
-    result_.model.date = options.date;
+    model().application = "Flankwright";
+    model().application_version = version();
+    model().date = options.date;
   }
 
   ExportedStage stage() {
@@ -59,38 +59,11 @@ class Export {
       add_spectrum(gears[0]);
     }
     add_notes();
+    result_.model = std::move(model());
     return std::move(result_);
   }
 
  private:
-  bool before(std::string_view version) const { return version_ < version; }
-
-  int add(const std::string& type, const std::string& name = {}) {
-    const int id = static_cast<int>(result_.model.components.size()) + 1;
-    result_.model.components.push_back({.id = id, .type = type, .name = name});
-    return id;
-  }
-  void attribute(const std::string& id, const std::string& unit, ValueType type, std::string text) {
-    result_.model.components.back().attributes.push_back({id, unit, type, std::move(text)});
-  }
-  void length(const std::string& id, double mm) { attribute(id, "mm", ValueType::Number, number_text(mm)); }
-  void number(const std::string& id, double value) { attribute(id, "none", ValueType::Number, number_text(value)); }
-  void word(const std::string& id, const std::string& value) { attribute(id, "none", ValueType::Word, value); }
-  void flag(const std::string& id, bool value) { attribute(id, "none", ValueType::Boolean, value ? "true" : "false"); }
-  void angle(const std::string& id, double rad) {
-    attribute(id, before("1.4") ? "\xc2\xb0" : "deg", ValueType::Number, number_text(rad / units::deg));
-  }
-  void torque(const std::string& id, double newton_mm) { attribute(id, "N m", ValueType::Number, number_text(newton_mm / units::newton_metre)); }
-  void lengths(const std::string& id, const std::vector<double>& mm) {
-    Attribute array{.id = id, .unit = "mm", .type = ValueType::NumberArray};
-    for (const double value : mm) array.array.push_back(number_text(value));
-    result_.model.components.back().attributes.push_back(std::move(array));
-  }
-  void relate(const std::string& type, std::vector<Reference> refs, std::optional<int> order = {}) {
-    const int id = static_cast<int>(result_.model.relations.size()) + 1;
-    result_.model.relations.push_back({.id = id, .type = type, .order = order, .refs = std::move(refs)});
-  }
-
   const Modification& modification(Member m) const { return modification_[m]; }
   const GivenGrid& grid(Member m) const { return study_.grid[m]; }
 
@@ -134,7 +107,7 @@ class Export {
 
   void add_flanks(Member m, int gear) {
     const int left = add_flank(m, "left"), right = add_flank(m, "right");
-    const std::string type = result_.model.components.back().type;
+    const std::string type = model().components.back().type;
     relate("flank", {{gear, "gear", "cylindrical_gear"}, {left, "left", type}, {right, "right", type}});
     const RackProfile& rack = pair_[m].data.rack;
     const int tool = add("rack_shaped_tool");
@@ -320,9 +293,9 @@ class Export {
     }
     if (torques.size() < 2) return;
     for (const double torque : torques) {
-      Component varied{.id = pinion_data_, .type = result_.model.find(pinion_data_)->type};
+      Component varied{.id = pinion_data_, .type = model().find(pinion_data_)->type};
       varied.attributes.push_back({"torque", "N m", ValueType::Number, number_text(torque / units::newton_metre)});
-      result_.model.load_cases.push_back({static_cast<int>(result_.model.load_cases.size()) + 1, {varied}});
+      model().load_cases.push_back({static_cast<int>(model().load_cases.size()) + 1, {varied}});
     }
   }
 
@@ -331,13 +304,13 @@ class Export {
     const int shaft = add("shaft", "pinion shaft");
     relate("assembly", {{shaft, "assembly", "shaft"}, {pinion, "part", "cylindrical_gear"}});
     const auto vary = [this](LoadCase& load_case, int component, const char* id, const char* unit, double value) {
-      Component varied{.id = component, .type = result_.model.find(component)->type};
+      Component varied{.id = component, .type = model().find(component)->type};
       varied.attributes.push_back({id, unit, ValueType::Number, number_text(value)});
       load_case.components.push_back(std::move(varied));
     };
     bool says_all = true;
     for (const SpectrumBin& bin : study_.spectrum) {
-      LoadCase load_case{static_cast<int>(result_.model.load_cases.size()) + 1, {}};
+      LoadCase load_case{static_cast<int>(model().load_cases.size()) + 1, {}};
       vary(load_case, pinion_data_, "torque", "N m", bin.torque / units::newton_metre);
       constexpr double rpm = units::pi / 30.0, hour = 3600.0;
       const double time = std::isnan(bin.hours) ? bin.cycles * 2.0 * units::pi / bin.speed : bin.hours;  // s
@@ -345,7 +318,7 @@ class Export {
       if (!std::isnan(time)) vary(load_case, unit_, before("1.3") ? "load_duration" : "operating_time", "h", time / hour);
       if (!std::isnan(bin.temperature)) vary(load_case, stage_, "temperature_lubricant", "C", bin.temperature);
       says_all = says_all && !std::isnan(time) && bin.mesh_misalignment == 0.0 && std::isnan(bin.dynamic_factor);
-      result_.model.load_cases.push_back(std::move(load_case));
+      model().load_cases.push_back(std::move(load_case));
     }
     if (!says_all) {
       result_.notes.push_back(
@@ -356,7 +329,7 @@ class Export {
   void add_oil() {
     const LifeTable& life = study_.life;
     if (!life.has_lubricant) return;
-    for (Component& component : result_.model.components) {
+    for (Component& component : model().components) {
       if (component.id == stage_)
         component.attributes.push_back({"temperature_lubricant", "C", ValueType::Number, number_text(life.lubricant.temperature)});
       const bool has_roughness = component.type == "cylindrical_gear" && !std::isnan(life.roughness);
@@ -403,7 +376,6 @@ class Export {
   const Study& study_;
   GearPair pair_;
   PerGear<Modification> modification_;  ///< with the process that was analysed
-  std::string version_;
   ExportedStage result_;
   int unit_{0}, stage_{0}, flank_{0}, pinion_data_{0};
   std::string flank_type_;
