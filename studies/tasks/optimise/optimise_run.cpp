@@ -8,6 +8,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
+#include "studies/tasks/optimise/edge_advice.hpp"
 #include "studies/tasks/optimise/life_error.hpp"
 #include "studies/tasks/optimise/assessment.hpp"
 #include "studies/tasks/optimise/optimise_results.hpp"
@@ -72,6 +73,7 @@ class OptimiseRun {
     if (found_.assessment.relaxation) state_shown_excess();
     add_unmet_by_design(problem, results_.study.table<OptimiseTable>(), found_.design, results_.requirements);
     if (found_.scatter) add_unmet_over_draws();
+    if (const auto advice = edge_advice(study.table<OptimiseTable>(), results_.loaded)) results_.notes.push_back(*advice);
   }
 
  private:

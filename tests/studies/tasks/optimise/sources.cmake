@@ -1,5 +1,6 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/drawn_scenes_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/edge_advice_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/optimise_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grinding_choices_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/life_error_test.cpp
