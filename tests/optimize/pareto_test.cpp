@@ -160,3 +160,31 @@ TEST_CASE("A front keeps its budget and reports it", "[optimize][design][pareto]
   options.name = "nlopt:crs2_lm";
   CHECK_THROWS_AS(trace_front(problem, {stress, error}, 5, options), InvalidInput);
 }
+
+TEST_CASE("A front is judged by the limits asked for, not by the tighter ones of its search", "[optimize][design][pareto]") {
+  DesignTask task = trading_task();
+  DesignProblem open(task);
+  const Eigen::Vector3d x(0.3, 0.5, 0.2);
+  const double value = open.value(error, open.analyse(x, false)) * units::um;  // inside
+  const auto limited = [&](double maximum) { return OutputConstraint{.output = term(Output::TePeakToPeak), .maximum = maximum}; };
+  task.constraints = {limited(0.9 * value)};
+  const DesignProblem problem(task);
+  const DesignResolver at_positions = [&](const DesignAnalysis& analysis) {
+    std::vector<ResolvedCycle> cycles;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      ResolvedCycle& resolved = cycles.emplace_back();
+      resolved.summary = summarise(problem.model(s), analysis.cycles[static_cast<std::size_t>(s)]);
+    }
+    return cycles;
+  };
+  const auto violation_under = [&](double maximum) {
+    ParetoFront front;
+    front.objectives = {stress, error};
+    front.points = {{.x = x, .values = {1.0, 1.0}, .status = SolverStatus::Converged, .constraint_violation = 0.2}};
+    resolve_front(problem, {limited(maximum)}, at_positions, {}, front);
+    return front.points.front().constraint_violation;
+  };
+  constexpr double round_off = 1e-12;
+  CHECK(violation_under(1.1 * value) == 0.0);
+  CHECK(violation_under(value / 1.1) == Approx(0.1).margin(round_off));
+}
