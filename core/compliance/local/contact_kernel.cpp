@@ -10,6 +10,8 @@ namespace {
 constexpr double spread = 0.1;  // e/h
 /// Parts of a line at least so many times the longer one apart are as far apart as their middles.
 constexpr double far_apart = 4.0;
+/// A part shorter than this share of H is a place: G changes over it by a thousand-millionth at most, and differences of integrals have no more digits.
+constexpr double a_place = 1e-6;
 
 /// G and its integrals.
 struct HalfSpace {
@@ -34,7 +36,9 @@ struct HalfSpace {
   }
   /// The mean of G over two parts of a line, a and b long, whose middles are r apart.
   double mean(double r, double a, double b) const {
-    if (std::abs(r) >= far_apart * std::max(a, b)) return at(r);
+    const double longer = std::max(a, b), shorter = std::min(a, b), half = 0.5 * longer;
+    if (std::abs(r) >= far_apart * longer || longer < a_place * H) return at(r);
+    if (shorter < a_place * H) return (integral(r + half) - integral(r - half)) / longer;
     const double half_sum = 0.5 * (a + b), half_difference = 0.5 * (a - b);
     return (second_integral(r + half_sum) - second_integral(r + half_difference) - second_integral(r - half_difference) +
             second_integral(r - half_sum)) /

@@ -128,6 +128,19 @@ TEST_CASE("The kernel between two parts of a line is the mean of that between th
   CHECK(kernel.between(one, other, depth) == Approx(kernel.between(other, one, depth)).epsilon(1e-13));  // round-off
 }
 
+TEST_CASE("The kernel between parts of a line goes over to that of places as they shrink to nothing", "[core][effects]") {
+  constexpr double depth = 1.4, s = 3.0;
+  const ContactKernel kernel(0.3, {0.0, 20.0}, 0.4, true);
+  const double length = GENERATE(0.0, 1e-16, 1e-7, 1e-5), apart = GENERATE(0.0, 1e-6, 0.05);
+  const ContactKernel::Range one{s, s + length}, other{s + length + apart, s + 2.0 * length + apart}, whole{s + length + apart, s + 0.5};
+  CAPTURE(length, apart);
+  const double place = s + 0.5 * length;
+  constexpr double changes = 1e-4, round_off = 1e-6;  // of G over 1e-5 mm; of a difference of integrals over as little
+  CHECK(kernel.between(one, other, depth) == Approx(kernel.between(place, place + length + apart, depth)).epsilon(changes));
+  const double mean = kernel.over(place, whole, depth) / (whole.end - whole.begin);
+  CHECK(kernel.between(one, whole, depth) == Approx(mean).epsilon(length < 1e-6 ? round_off : changes));
+}
+
 TEST_CASE("A kink of the load on a point is seen by contact as by its integral", "[core][effects]") {
   // Spur, in the middle of a wide face: w = |s| about a point, far from ends.
   const GearPair gears = mesh_cases::pair(18, 54, 0, 10, 40);

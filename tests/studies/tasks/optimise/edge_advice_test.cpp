@@ -8,17 +8,26 @@ using namespace flankwright::studies;
 namespace {
 
 LoadedResult load_case(const std::string& design, double stress, double on_edge) {
-  LoadedResult loaded{.scene = "nominal", .torque = 250e3, .design = design};
+  LoadedResult loaded;
+  loaded.scene = "nominal";
+  loaded.torque = 250e3;
+  loaded.design = design;
   loaded.summary.peak_contact_stress = stress;
   loaded.summary.edge_stress = on_edge;
   return loaded;
+}
+
+ObjectiveTerm term(Output output) {
+  ObjectiveTerm of;
+  of.output = output;
+  return of;
 }
 
 }  // namespace
 
 TEST_CASE("A search without contact stress that loads an edge most is told what to ask for", "[studies][optimise]") {
   OptimiseTable asked;
-  asked.objective = {{.output = Output::TePeakToPeak}};
+  asked.objective = {term(Output::TePeakToPeak)};
   const std::vector<LoadedResult> on_edge{load_case("before", 1200.0, 0.0), load_case("after", 1300.0, 0.0), load_case("after", 2889.0, 2889.0)};
   const std::optional<std::string> advice = edge_advice(asked, on_edge);
   REQUIRE(advice.has_value());
@@ -31,8 +40,8 @@ TEST_CASE("A search without contact stress that loads an edge most is told what 
   SECTION("nor where an objective or a constraint has contact stress in it") {
     const Output output = GENERATE(Output::PeakContactStress, Output::EdgeStress, Output::ContactUtilisation);
     OptimiseTable by_objective = asked, by_constraint = asked;
-    by_objective.objective.push_back({.output = output});
-    by_constraint.constraints.push_back({.output = {.output = output}, .maximum = 3000.0});
+    by_objective.objective.push_back(term(output));
+    by_constraint.constraints.push_back({.output = term(output), .maximum = 3000.0});
     CHECK_FALSE(edge_advice(by_objective, on_edge).has_value());
     CHECK_FALSE(edge_advice(by_constraint, on_edge).has_value());
   }
