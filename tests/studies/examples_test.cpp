@@ -63,10 +63,12 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
     const auto uncertain = occurrences(ending.err, "warning: The Sobol indices come from");
     // Contact on tip edges is said, once a study.
     const auto on_edges = ending.err.find("the tip edge of the") != std::string::npos ? 1 : 0;
+    // Where the design of a transmission error has its highest stress there, that is said as well.
+    const auto loads_edge = occurrences(ending.err, "warning: the highest contact stress of the design found");
     // Of a lead modification without a process it is said what grinding would make of it.
     const auto unground =
         occurrences(ending.err, "warning: the pinion's process is \"none\"") + occurrences(ending.err, "warning: the wheel's process is \"none\"");
-    CHECK(occurrences(ending.err, "warning") - outside - uncertain - on_edges - unground == (is_parabola ? 1 : 0));
+    CHECK(occurrences(ending.err, "warning") - outside - uncertain - on_edges - loads_edge - unground == (is_parabola ? 1 : 0));
     CHECK(occurrences(ending.err, "\"beyond its limit\": the designed parabola") == (is_parabola ? 1 : 0));
   }
 }
