@@ -29,30 +29,6 @@ ComparedDesign compared(const DesignProblem& problem, const NamedDesign& design)
   return result;
 }
 
-/// By the coarse resolution of a task, those that are known without another analysis.
-std::vector<ComparedDesign> compare_coarsely(const DesignTask& task, const std::vector<NamedDesign>& designs, CoarseComparison& known) {
-  DesignTask coarse = coarser(task);
-  const MeshResolution resolution = coarse.resolution;
-  if (known.intervals != resolution.quadrature.intervals || known.phases != resolution.phases)
-    known = {resolution.quadrature.intervals, resolution.phases, {}};
-  const auto find = [&](const NamedDesign& design) {
-    return std::ranges::find_if(known.designs, [&](const ComparedDesign& d) { return d.design.modification == design.modification; });
-  };
-  std::vector<NamedDesign> missing;
-  for (const NamedDesign& design : designs) {
-    if (find(design) == known.designs.end()) missing.push_back(design);
-  }
-  if (!missing.empty()) {
-    for (ComparedDesign& d : compare_designs(DesignProblem(std::move(coarse)), missing)) known.designs.push_back(std::move(d));
-  }
-  std::vector<ComparedDesign> results;
-  for (const NamedDesign& design : designs) {
-    results.push_back(*find(design));
-    results.back().design = design;
-  }
-  return results;
-}
-
 }  // namespace
 
 bool ComparedDesign::feasible() const { return failure.empty() && constraint_violation <= DesignLog::tolerance; }
@@ -63,11 +39,9 @@ std::vector<ComparedDesign> compare_designs(const DesignProblem& problem, const 
   return results;
 }
 
-std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs,
-                                                          CoarseComparison* coarse) {
-  if (!can_be_coarser(problem.task())) return compare_designs(problem, designs);
-  CoarseComparison own_comparison;
-  std::vector<ComparedDesign> results = compare_coarsely(problem.task(), designs, coarse != nullptr ? *coarse : own_comparison);
+std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs) {
+  if (designs.empty() || !can_be_coarser(problem.task())) return compare_designs(problem, designs);
+  std::vector<ComparedDesign> results = compare_designs(DesignProblem(coarser(problem.task())), designs);
   const auto rank = [](const ComparedDesign& d) { return std::pair(d.feasible() ? 0.0 : d.constraint_violation, d.objective); };
   const int own = problem.task().resolution.quadrature.intervals;
   for (;;) {

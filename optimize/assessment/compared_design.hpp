@@ -32,18 +32,9 @@ struct ComparedDesign {
 /// distribution does not converge is kept with its failure.
 std::vector<ComparedDesign> compare_designs(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
 
-/// Designs of one task that were compared with the coarse resolution of a search.
-struct CoarseComparison {
-  int intervals{0};
-  std::vector<double> phases;
-  std::vector<ComparedDesign> designs;
-};
-
 /// The same with the coarse resolution of a search, see coarser(), where the task allows one. The best design, or the one nearest to keeping the constraints,
 /// is analysed again at the task's own resolution. This is repeated until the best design is one that was. The others keep their coarse figures.
-/// @param coarse  designs that it has already are not analysed coarsely again, the others are added; null: there are none
-std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs,
-                                                          CoarseComparison* coarse = nullptr);
+std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
 
 /// The feasible design of least objective, the first of equals; null where none is feasible.
 const ComparedDesign* best_of(const std::vector<ComparedDesign>& designs);

@@ -129,7 +129,7 @@ int most_tolerance_intervals(const Study& study) {
 }  // namespace
 
 Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
-                          CoarseComparison& coarse, const ProgressReport& progress) {
+                          const ProgressReport& progress) {
   const Stopwatch clock;
   Assessment assessment;
   if (study.table<OptimiseTable>().assessment.rules) {
@@ -138,7 +138,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
     const std::vector<NamedDesign> rules = rules_of_thumb(problem.task(), *assessment.basis);
     const bool has_tighter_limits =
         !std::ranges::equal(problem.task().constraints, asked.constraints, {}, &OutputConstraint::limit, &OutputConstraint::limit);
-    assessment.rules = compare_designs_by_two_levels(has_tighter_limits ? DesignProblem(asked) : problem, rules, &coarse);
+    assessment.rules = compare_designs_by_two_levels(has_tighter_limits ? DesignProblem(asked) : problem, rules);
     if (const ComparedDesign* best = best_of(assessment.rules)) assessment.out_of_reach = out_of_reach(problem, best->design);
   }
   if (study.table<OptimiseTable>().assessment.variants > 0.0) {

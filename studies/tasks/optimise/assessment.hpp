@@ -46,10 +46,9 @@ struct Assessment {
 };
 
 /// @param problem  that was optimised; its limits may be tighter than those asked for, by what extremes between the positions exceed those at them
-/// @param coarse   rules that the search has compared under these limits
 /// @param asked    the task with the limits asked for, by which other designs are judged and which sentences name
 Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
-                          CoarseComparison& coarse, const ProgressReport& progress);
+                          const ProgressReport& progress);
 
 /// The designs before and after, and the best rule of thumb where there is one, over draws.
 /// @param drawn  load cases of the draws

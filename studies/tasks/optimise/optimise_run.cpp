@@ -50,7 +50,7 @@ class OptimiseRun {
     }
     const DesignResult& design = found_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
-    Assessment assessment = assess_optimum(study, problem, found_.task, design, search_.compared_rules(), run_.progress());
+    Assessment assessment = assess_optimum(study, problem, found_.task, design, run_.progress());
     if (study.table<OptimiseTable>().scatter.asked()) {
       assessment.is_of = AssessedDesign::WithoutScatter;
       choose_over_draws(problem);

@@ -145,7 +145,8 @@ void OptimiseSearch::take_more_positions(DesignProblem& problem, const DesignOpt
     const bool infeasible = found.design.status == SolverStatus::Infeasible;  // then it is the excess that was searched for
     if (!rises_between_positions(best, shown_between_positions(problem, best), infeasible)) return;
     const Eigen::VectorXd x = start_at(problem, best);
-    if (!infeasible && grinds_without_rise(problem, options, x, found)) return;
+    const std::optional<DesignReport> ground = infeasible ? std::nullopt : ground_of(problem, options, x, found);
+    if (ground && !rises_between_positions(*ground, shown_between_positions(problem, *ground), false)) return;
     run_.set_positions(2 * cycle.positions);
     go_on_at_resolution(problem, options, x, found);
     found.fine.seconds += clock.seconds();
@@ -153,13 +154,14 @@ void OptimiseSearch::take_more_positions(DesignProblem& problem, const DesignOpt
   }
 }
 
-bool OptimiseSearch::grinds_without_rise(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found) {
+std::optional<DesignReport> OptimiseSearch::ground_of(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x,
+                                                      TwoLevelDesign& found) {
   const int analyses = problem.analyses();
   const DesignToGrind to_grind = design_to_grind(problem, x, left_of(options.solver, found.design));
-  const DesignReport ground = report_design(problem, problem.analyse(to_grind.x, false));
+  DesignReport ground = report_design(problem, problem.analyse(to_grind.x, false));
   found.design.evaluations += problem.analyses() - analyses + to_grind.choice_analyses;
   found.design.failures += to_grind.failures;
-  return to_grind.is_changed && is_usable(ground) && !rises_between_positions(ground, shown_between_positions(problem, ground), false);
+  return to_grind.is_changed && is_usable(ground) ? std::optional(std::move(ground)) : std::nullopt;
 }
 
 std::vector<double> OptimiseSearch::take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
@@ -168,9 +170,14 @@ std::vector<double> OptimiseSearch::take_more_intervals(DesignProblem& problem, 
     const double seconds = found.design.seconds;
     const DesignReport& best = exact_of(found);
     if (!is_usable(best)) return {};
-    const FinerLook look = look_finer(problem, best, found.design.status == SolverStatus::Infeasible);
+    const bool infeasible = found.design.status == SolverStatus::Infeasible;
+    const FinerLook look = look_finer(problem, best, infeasible);
     if (!look.needs_more) return look.excess_changes;
     const Eigen::VectorXd x = start_at(problem, best);
+    if (const std::optional<DesignReport> ground = infeasible ? std::nullopt : ground_of(problem, options, x, found)) {
+      const FinerLook of_ground = look_finer(problem, *ground, false);
+      if (!of_ground.needs_more) return of_ground.excess_changes;
+    }
     run_.set_intervals(2 * results_.study.fidelity.quadrature.intervals);
     go_on_at_resolution(problem, options, x, found);
     found.fine.seconds += clock.seconds();
@@ -241,15 +248,31 @@ void OptimiseSearch::take_better_rule(DesignProblem& problem, const DesignOption
   const Stopwatch clock;
   const double seconds = found.design.seconds;
   run_.report("trying rules of thumb", 0, 1, "");
-  const std::vector<Eigen::VectorXd> starts = within_bounds(problem, rules_of_thumb(problem.task(), rule_basis(problem)));
   std::vector<NamedDesign> designs;
-  for (const Eigen::VectorXd& x : starts) designs.push_back({"", "", problem.modification(x)});
-  const std::vector<ComparedDesign> rules = compare_designs_by_two_levels(problem, designs, &compared_rules_);
-  const ComparedDesign* const rule = best_of(rules);
+  for (const Eigen::VectorXd& x : within_bounds(problem, rules_of_thumb(problem.task(), rule_basis(problem)))) {
+    designs.push_back({"", "", problem.modification(x)});
+  }
   const bool is_infeasible = found.design.status == SolverStatus::Infeasible;
+  if (!is_infeasible) designs = promising(problem, designs, best);
+  const std::vector<ComparedDesign> rules = compare_designs_by_two_levels(problem, designs);
+  const ComparedDesign* const rule = best_of(rules);
   if (rule != nullptr && (is_infeasible || relative_increase(best.objective, rule->objective) < -worth_going_on))
-    go_on_from_better(problem, options, starts[static_cast<std::size_t>(rule - rules.data())], found);
+    go_on_from_better(problem, options, within_bounds(problem, {rule->design}).front(), found);
   found.design.seconds = seconds + clock.seconds();
+}
+
+std::vector<NamedDesign> OptimiseSearch::promising(const DesignProblem& problem, const std::vector<NamedDesign>& designs,
+                                                   const DesignReport& found) const {
+  constexpr double by_resolution = 0.1;  // of an objective, as the coarse resolution of a search may have it less than the task's own
+  const DesignTask& task = problem.task();
+  if (task.over != Aggregate::Worst || task.combined_objective().over_spectrum() || found.scene_measures.empty()) return designs;
+  const auto worst = std::ranges::max_element(found.scene_measures) - found.scene_measures.begin();
+  const std::vector<ComparedDesign> compared = compare_designs_by_two_levels(problem.over_scenes({static_cast<int>(worst)}), designs);
+  std::vector<NamedDesign> some;
+  for (const ComparedDesign& of : compared) {
+    if (of.failure.empty() && of.objective < found.objective + by_resolution * std::abs(found.objective)) some.push_back(of.design);
+  }
+  return some;
 }
 
 void OptimiseSearch::go_on_from_better(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found) {

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "optimize/assessment/compared_design.hpp"
 #include "optimize/design/two_level.hpp"
 #include "studies/analysis/study_run.hpp"
 
@@ -19,8 +18,6 @@ class OptimiseSearch {
   /// Searches from all starts, takes as many positions and intervals as the design needs, and chooses what can be ground.
   /// @param problem  of task(); afterwards at the resolution that was reached, and with limits that keep those of the study where they are seen more finely
   TwoLevelDesign find(DesignProblem& problem, const DesignOptions& options);
-  /// Rules of thumb that it has compared coarsely, under the limits asked for.
-  CoarseComparison& compared_rules() { return compared_rules_; }
 
   /// By how much a design exceeds the constraint that it exceeds most [-, relative to the limit]; below 0: it keeps all.
   double excess_of(const DesignReport& report) const;
@@ -45,11 +42,11 @@ class OptimiseSearch {
   /// A search at few positions may leave a peak between them, such as that of an edge which a hundredth of a micrometre of relief keeps from touching. It goes
   /// on at twice the positions then, unless the design rounded to the steps that can be ground has no such peak.
   void take_more_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
-  /// Whether the scaled design x, rounded to what can be ground, has no peak between the positions; false where rounding leaves it as it is. An optimum often lies where a
-  /// tip edge only just stays clear, and the next step keeps it clear.
-  bool grinds_without_rise(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);
+  /// The scaled design x rounded to what can be ground; nothing where rounding leaves it as it is. An optimum often lies where a tip edge only just stays clear, and the
+  /// next step keeps it clear: what is ground needs no finer search then.
+  std::optional<DesignReport> ground_of(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);
   /// A search with few points along the contact lines may see a transmission error, or an order of the scenes, that more points do not. It goes on with twice
-  /// the intervals then, up to those of an analysis.
+  /// the intervals then, up to those of an analysis, unless the design rounded to the steps that can be ground is seen well enough.
   /// @returns by how much still more intervals change the constraints, as FinerLook has it; empty where that is not known
   std::vector<double> take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
   /// Where the study asks for an accuracy, the figures of the best design are to keep it: while they do not, the search goes on at the resolution of refine_resolution().
@@ -60,6 +57,8 @@ class OptimiseSearch {
   /// A search may get stuck at a design that is worse than a rule of thumb. Where the best rule within the bounds of the variables is better, or keeps constraints that no design found
   /// keeps, the search goes on from there. Lists of objectives are left out as for take_better_usual_design().
   void take_better_rule(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+  /// Those of designs that may be better than the one found: where the worst load case counts, by that of the design found.
+  std::vector<NamedDesign> promising(const DesignProblem& problem, const std::vector<NamedDesign>& designs, const DesignReport& found) const;
   /// Takes what the search finds from a scaled design, if that is better.
   void go_on_from_better(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);
   /// A search may get stuck at a design that is seldom ground. Where the best design within the limits that flanks have as a rule is better, the search goes on
@@ -80,7 +79,6 @@ class OptimiseSearch {
   StudyRun& run_;
   StudyResults& results_;
   DesignTask task_;
-  CoarseComparison compared_rules_;
 };
 
 }  // namespace flankwright::studies
