@@ -140,3 +140,22 @@ TEST_CASE("A compared design has the figures of its own analysis, and failures a
   CHECK(best_of(again) == &again[1]);
   CHECK(best_of({again[0]}) == nullptr);
 }
+
+TEST_CASE("A design is moved into the bounds of the variables, and what they do not reach is named", "[optimize][assessment]") {
+  const DesignProblem problem(spur({0.0}));
+  REQUIRE(problem.variables() > 0);
+  const DesignVariable& first = problem.task().variables.front();
+  NamedDesign design{"", "", problem.modification(Eigen::VectorXd::Constant(problem.variables(), 0.5))};
+  constexpr double round_off = 1e-12;
+  CHECK((within_bounds(problem, {design, design}).front() - Eigen::VectorXd::Constant(problem.variables(), 0.5)).norm() < round_off);
+  CHECK(within_bounds(problem, {design, design}).size() == 1);
+  CHECK(out_of_reach(problem, design).empty());
+
+  set(design.modification[first.member], first.parameter, first.upper + 0.010);
+  CHECK(within_bounds(problem, {design}).front()[0] == 1.0);
+  CHECK(out_of_reach(problem, design) == std::vector{std::string(name_of(first.member)) + " " + std::string(describe(first.parameter).name)});
+
+  NamedDesign other{"", "", problem.task().modification};
+  other.modification.wheel.root_relief = {0.012, 1.0, ReliefShape::Linear};
+  CHECK(out_of_reach(problem, other) == std::vector<std::string>{"wheel root relief"});  // its height goes with it
+}

@@ -42,6 +42,42 @@ void remove_seconds(json& node) {
   }
 }
 
+TEST_CASE("A search ends no worse than the best rule of thumb that its variables reach", "[studies][assessment]") {
+  // Of a spur pair by thin slices. Two analyses find nothing by themselves.
+  const std::string study = R"(
+title = "Spur pair"
+task = "optimise"
+[pair]
+normal_module = 3
+[pinion]
+teeth = 25
+face_width = 20
+[wheel]
+teeth = 50
+face_width = 20
+[load]
+torque = 150
+[fidelity]
+compliance = "thin_slice"
+[optimise]
+objective = "te_harmonic_1"
+max_evaluations = 2
+[optimise.variables]
+"pinion.modification.tip_relief.amount" = [0, 60]
+"wheel.modification.tip_relief.amount" = [0, 60]
+"pinion.modification.tip_relief.height" = [0.5, 3]
+"wheel.modification.tip_relief.height" = [0.5, 3]
+)";
+  const StudyResults results = run_study(parse_study(study, "spur.toml"));
+  const Assessment& assessment = optimised(results).assessment;
+  const ComparedDesign* const best = best_of(assessment.rules);
+  REQUIRE(best != nullptr);
+  CHECK(assessment.out_of_reach.empty());
+  constexpr double round_off = 1e-9;
+  CHECK(optimised(results).search_work.objective_at_positions <= best->objective * (1.0 + round_off));
+  CHECK(best->objective < 0.6 * optimised(results).design.before.objective);
+}
+
 TEST_CASE("The assessment in results.json is consistent", "[studies][assessment]") {
   const StudyResults results = run_study(parse_study(assessed_study(), "small.toml"));
   const json optimise = json::parse(results_json(results))["optimise"];
