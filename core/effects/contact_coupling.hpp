@@ -15,8 +15,8 @@ namespace flankwright {
 ///
 ///     K_ij = g_ij,    K_ii a_i = int_line g dt - sum over j != i of a_j g_ij - int_face g dt,
 ///
-/// a the parts of the line that belong to the points, one behind the other, and g_ij the mean over two of them: where a relief begins the load has a kink, and half of
-/// what its neighbours take off a point lies within its own part and the next. An even load over the face is left as it was. A line that ends on the face, at a tip, has the support of
+/// a the lengths of line that belong to the points, one behind the other, and g_ij the mean of g over two of them. The value at the points would miss what g has within
+/// half such a length: where a relief begins the load has a kink, and peaks would be 1 % low. An even load over the face is left as it was. A line that ends on the face, at a tip, has the support of
 /// what is not loaded beyond. Beside thin slices, which do not support each other, it does nothing.
 class ContactCouplingEffect final : public Effect {
  public:

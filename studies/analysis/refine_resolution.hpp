@@ -25,8 +25,8 @@ std::vector<JudgedCase> judged_cases(const StudyResults& results);
 /// @param most_doublings  more than one where a level costs much: it is passed over where its error, converging with order two, would not suffice
 bool refine_resolution(const std::vector<JudgedCase>& cases, StudyResults& results, int most_doublings = 1);
 
-/// Says in a note which load case is known least, and by which figure, where that is less than Fidelity::resolution_accuracy; unless the study itself gives
-/// what brings the error or asks for an accuracy, which is a requirement.
+/// Says in a note which load case and which of its figures has the largest error, where that exceeds Fidelity::resolution_accuracy. Nothing is said where the study
+/// itself gives what brings the error, or asks for an accuracy, which is a requirement.
 void note_what_stays_wide(const std::vector<JudgedCase>& cases, StudyResults& results);
 
 /// States in results.fidelity_choice the errors of the resolution that has been reached, and whether the accuracy is kept. Nothing to do without a choice.

@@ -72,8 +72,8 @@ class StudyRun {
   struct HeldCase {
     JudgedCase judged;
     const FlankCondition* condition;
-    ResolvedCycle* resolved;  ///< of `judged`
-    Operation operation;
+    ResolvedCycle* resolved;    ///< of `judged`
+    Operation operation;        ///< for film and temperatures
     bool is_found;              ///< by a search
     int compared_intervals{0};  ///< of the cycle that the errors by points come from; 0: it does not matter which
   };

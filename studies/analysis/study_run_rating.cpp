@@ -19,8 +19,8 @@ namespace flankwright::studies {
 
 namespace {
 
-/// The intervals of the analysis, as far as it takes more than it begins with: ratios of peaks are known better than the peaks, and each load case is
-/// solved under several conditions.
+/// The intervals of the analysis, 24 at most where it chooses them: ratios of peaks are known better than the peaks, and each load case is solved under
+/// several conditions.
 Quadrature rating_quadrature(const Fidelity& fidelity) {
   constexpr int enough = 24;
   Quadrature quadrature = fidelity.quadrature;

@@ -120,6 +120,18 @@ angle = 70
 )";
 }
 
+std::string spur_pair() {
+  return R"([pair]
+normal_module = 3
+[pinion]
+teeth = 25
+face_width = 20
+[wheel]
+teeth = 50
+face_width = 20
+)";
+}
+
 std::string tilted_spur_pair() {
   return R"([pair]
 normal_module = 3

@@ -22,6 +22,9 @@ std::string unit_pair();
 /// The unit around it: an input shaft, and a first stage on the pinion's shaft.
 std::string unit();
 
+/// The tables [pair], [pinion] and [wheel] of a spur pair 25:50, m_n 3, b 20.
+std::string spur_pair();
+
 /// A spur pair that meets tilted, by thin slices: points of its lines reach and leave contact one after the other.
 std::string tilted_spur_pair();
 

@@ -38,7 +38,7 @@ class ContactKernel {
   /// @param depth  h > 0 [mm]
   double between(double s, double t, double depth) const;
   /// The mean of g over two parts of a line that do not overlap [-/mm]; symmetric. Parts whose middles are four times the longer one apart, or
-  /// more, have the value of their middles, within 1 % of what 1/r has.
+  /// more, have the value of their middles, within 1 % of what 1/r has; so has what a leaning end adds.
   double between(const Range& one, const Range& other, double depth) const;
   /// The integral of g over a load from its begin to its end [-].
   double over(double s, const Range& load, double depth) const;

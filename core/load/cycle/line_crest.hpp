@@ -70,7 +70,8 @@ struct LoadedLines {
 ///     kappa = (K_own - K_next) (distance of the points along the line)/2 - e.
 ///
 /// K_own is without what contact takes back on the diagonal for the law of an even load, e (ContactCouplingEffect), which is taken back of the load on the crest.
-/// As much of e counts as leaves half of the law's slope: under a heavy load contact alone may no longer rise with it, see ContactKernel.
+/// So much of e counts that half of the law's slope is left: under a heavy load contact alone may no longer rise with it, see ContactKernel. The derivatives
+/// hold kappa, also where this limit moves with the load.
 /// Where points yield each for itself (thin slices) it is what they yield per line load, K_ii a_i. Departure: flanks that touch where less has been taken
 /// off, FlankTouchSearch, round the kink over R h' along the profile; the place taken is the end without relief.
 ///

@@ -74,14 +74,17 @@ class ScatterRun {
   }
 
  private:
-  /// A search that ends beside contact on edges may not have seen what lies behind it. It begins again at the design found, with all its draws and a wide box, while that
-  /// gains more than thousands of draws tell apart.
+  /// A search over draws that begins again at the design found, with a wide box, while that gains more than thousands of draws tell apart: contact on edges may hide better
+  /// designs. All searches together keep to the limits of the study.
   ScatterDesign search_again(const DesignTask& over, const std::vector<double>& start) const {
     constexpr double worth_it = 2.5e-3;
     constexpr int most_searches = 4;
-    const SolverOptions& options = study_.table<OptimiseTable>().solver;
+    SolverOptions options = study_.table<OptimiseTable>().solver;
     ScatterDesign best = search_over_draws(over, start, options);
-    for (int search = 1; search < most_searches; ++search) {
+    for (int search = 1; search < most_searches && best.status == SolverStatus::Converged; ++search) {
+      options.max_seconds = study_.table<OptimiseTable>().solver.max_seconds - best.seconds;
+      options.max_evaluations = study_.table<OptimiseTable>().solver.max_evaluations - best.steps;
+      if (!(options.max_seconds > 0.0) || options.max_evaluations < 1) break;
       ScatterDesign next = search_over_draws(over, unscaled(best.x, task_), options);
       const bool gains = is_better(next, best), goes_on = gains && !(next.value > (1.0 - worth_it) * best.value);
       ScatterDesign& other = gains ? best : next;

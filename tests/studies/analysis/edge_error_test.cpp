@@ -13,16 +13,7 @@ using study_texts::results_of;
 namespace {
 
 /// A misaligned spur pair with little relief: its tip edges carry a short contact that half the intervals hardly meet.
-const char* const on_its_edges = R"(
-task = "analyse"
-[pair]
-normal_module = 3
-[pinion]
-teeth = 25
-face_width = 20
-[wheel]
-teeth = 50
-face_width = 20
+const std::string on_its_edges = "task = \"analyse\"\n" + small::spur_pair() + R"(
 [pinion.modification]
 tip_relief = { amount = 6, height = 1.0 }
 lead_crowning = 4

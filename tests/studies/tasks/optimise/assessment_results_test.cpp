@@ -44,17 +44,7 @@ void remove_seconds(json& node) {
 
 TEST_CASE("A search ends no worse than the best rule of thumb that its variables reach", "[studies][assessment]") {
   // Of a spur pair by thin slices. Two analyses find nothing by themselves.
-  const std::string study = R"(
-title = "Spur pair"
-task = "optimise"
-[pair]
-normal_module = 3
-[pinion]
-teeth = 25
-face_width = 20
-[wheel]
-teeth = 50
-face_width = 20
+  const std::string study = "task = \"optimise\"\n" + small::spur_pair() + R"(
 [load]
 torque = 150
 [fidelity]
