@@ -147,11 +147,6 @@ class Account {
   std::int64_t cycles_;
 };
 
-/// The scaled design that was found, before choices and steps.
-Eigen::VectorXd scaled_best(const DesignProblem& problem, const DesignResult& design) {
-  return problem.scaled_design((design.exact ? *design.exact : design.after).variables).cwiseMax(0.0).cwiseMin(1.0);
-}
-
 }  // namespace
 
 void search_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
@@ -159,7 +154,7 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
   if (!task.scalarisation.empty() || !task.later_objectives.empty()) return;
   const Account account(problem, found);
   DesignResult& design = found.design;
-  const Eigen::VectorXd x = scaled_best(problem, design);
+  const Eigen::VectorXd x = start_at(problem, exact_of(found));
   const std::vector<int> unfelt = unfelt_variables(design.optimality, x);
   if (unfelt.empty()) return;
   const double objective = ProgramBetweenPositions(problem, resolve, x, unfelt).evaluate(x(unfelt), false).objective;
@@ -177,7 +172,7 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
 void keep_limits_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
   if (!problem.task().scalarisation.empty() || !problem.task().later_objectives.empty()) return;
   const Account account(problem, found);
-  const Eigen::VectorXd x = scaled_best(problem, found.design);
+  const Eigen::VectorXd x = start_at(problem, exact_of(found));
   std::vector<int> all(static_cast<std::size_t>(problem.variables()));
   std::iota(all.begin(), all.end(), 0);
   ProgramBetweenPositions program(problem, resolve, x, all);

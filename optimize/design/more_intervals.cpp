@@ -84,6 +84,16 @@ std::vector<double> excess_changes(const DesignTask& task, const DesignReport& r
 
 }  // namespace
 
+bool is_turned(const DesignTask& task, const DesignReport& report, const DesignReport& seen, const std::vector<int>& scenes, bool infeasible,
+               double change) {
+  const double excess = largest_excess(task, report), seen_excess = largest_excess(task, seen);
+  if (infeasible) return std::abs(seen_excess - excess) > change * (1.0 + excess);
+  const double growth = growth_of(task.combined_objective());
+  return seen_excess > std::max(excess, 0.0) + 0.5 * change ||
+         std::abs(seen.objective - report.objective) > change * growth * std::abs(report.objective) ||
+         lead_lost(task, report, seen, scenes) > change * growth;
+}
+
 FinerLook look_finer(const DesignProblem& problem, const DesignReport& report, bool infeasible) {
   const DesignTask& task_of_search = problem.task();
   const std::vector<int> scenes = deciding(problem, report);
@@ -94,17 +104,8 @@ FinerLook look_finer(const DesignProblem& problem, const DesignReport& report, b
   const DesignProblem finer(std::move(task));
   const DesignReport seen = report_design(finer, finer.analyse_design(report.analysis.modification));
   if (!std::ranges::all_of(seen.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return {};
-  FinerLook look{.excess_changes = excess_changes(task_of_search, report, seen)};
-  const double excess = largest_excess(task_of_search, report), seen_excess = largest_excess(task_of_search, seen);
-  if (infeasible) {
-    look.needs_more = std::abs(seen_excess - excess) > change_by_doubling * (1.0 + excess);
-    return look;
-  }
-  const double growth = growth_of(task_of_search.combined_objective());
-  look.needs_more = seen_excess > std::max(excess, 0.0) + 0.5 * change_by_doubling ||
-                    std::abs(seen.objective - report.objective) > change_by_doubling * growth * std::abs(report.objective) ||
-                    lead_lost(task_of_search, report, seen, scenes) > change_by_doubling * growth;
-  return look;
+  return {.needs_more = is_turned(task_of_search, report, seen, scenes, infeasible, change_by_doubling),
+          .excess_changes = excess_changes(task_of_search, report, seen)};
 }
 
 }  // namespace flankwright

@@ -62,6 +62,14 @@ void add_first_run(const DesignResult& coarse, std::vector<Eigen::VectorXd>& sta
 
 }  // namespace
 
+bool is_usable(const DesignReport& report) {
+  return std::ranges::all_of(report.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
+}
+
+Eigen::VectorXd start_at(const DesignProblem& problem, const DesignReport& report) {
+  return problem.scaled_design(report.variables).cwiseMax(0.0).cwiseMin(1.0);
+}
+
 SolverOptions left_of(SolverOptions options, const DesignResult& found) {
   options.max_evaluations = std::max(1, options.max_evaluations - found.evaluations);
   options.max_seconds = std::max(1e-3, options.max_seconds - found.seconds);
@@ -150,7 +158,7 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
 
   const Stopwatch fine_clock;
   result.design = coarse;
-  std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0));
+  std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, start_at(problem, coarse.after));
   add_first_run(coarse, starts);
   result.fine.cycles = problem.cycles() - cycles_before;
   go_on_from_best(problem, options, starts, result);
@@ -171,14 +179,49 @@ void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign&
   const std::int64_t cycles_before = problem.cycles();
   DesignResult fine = optimise_design(problem, finish);
   found.fine.cycles += problem.cycles() - cycles_before;
+  if (found.confirmed) {
+    found.fine.cycles += found.confirmed->work.cycles;
+    found.fine.seconds += found.confirmed->work.seconds;
+    found.confirmed.reset();
+  }
   join(found.design, fine);
   found.design = std::move(fine);
+}
+
+void confirm(const DesignProblem& problem, DesignReport after, std::optional<DesignReport> exact, TwoLevelDesign& found) {
+  DesignResult& design = found.design;
+  if (!found.confirmed) {
+    found.confirmed = {.work = found.fine, .objective = exact_of(found).objective, .optimality = design.optimality};
+    found.fine = {.resolution = {}, .cycles = 0, .seconds = 0.0};
+  }
+  const int analyses = exact ? 2 : 1;
+  found.fine.resolution = problem.task().resolution;
+  found.fine.cycles += analyses * problem.scenes();
+  design.evaluations += analyses;
+  design.after = std::move(after);
+  design.exact = std::move(exact);
+  found.confirmed->objective_seen = exact_of(found).objective;
+}
+
+void complete_confirmed(DesignProblem& problem, TwoLevelDesign& found) {
+  if (!found.confirmed) return;
+  const Stopwatch clock;
+  DesignResult& design = found.design;
+  const std::int64_t cycles_before = problem.cycles();
+  const int analyses_before = problem.analyses();
+  design.before = report_design(problem, problem.analyse_given());
+  const Eigen::VectorXd x = start_at(problem, exact_of(found));
+  if (design.status != SolverStatus::Infeasible) design.optimality = first_order_optimality(problem, x, NeighbourGradients::Never);
+  design.evaluations += problem.analyses() - analyses_before;
+  found.fine.cycles += problem.cycles() - cycles_before;
+  found.fine.seconds += clock.seconds();
+  design.seconds += clock.seconds();
 }
 
 void choose_what_to_grind(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
   const Stopwatch clock;
   DesignProblem last = last_stage(problem, found.design.stages);
-  const Eigen::VectorXd x = problem.scaled_design(found.design.after.variables).cwiseMax(0.0).cwiseMin(1.0);
+  const Eigen::VectorXd x = start_at(problem, found.design.after);
   const std::int64_t cycles_before = problem.cycles();
   choose_what_to_grind(problem, last, x, left_of(options.solver, found.design), found.design);
   found.fine.cycles += problem.cycles() - cycles_before;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "optimize/design/design_optimiser.hpp"
@@ -14,12 +15,21 @@ struct LevelWork {
   double seconds{not_given};  ///< wall time
 };
 
+/// The end of a search at a resolution whose order of designs a finer look confirmed: is_turned() was false. The design is shown as the finer look sees it.
+struct ConfirmedSearch {
+  LevelWork work;                    ///< of the finisher at that resolution
+  double objective{not_given};       ///< of the design as the search saw it, at the positions, outside units
+  double objective_seen{not_given};  ///< as the finer look sees it, likewise
+  Optimality optimality;             ///< as the search saw it
+};
+
 /// A design sought coarsely and finished finely.
 struct TwoLevelDesign {
   DesignResult
       design;  ///< of the fine level: before, after, constraints, optimality; starts, optima and the first part of the history are the coarse level's
   LevelWork search, fine;
   double objective_seen_by_search{not_given};  ///< of the coarse optimum, as the coarse level has it, outside units
+  std::optional<ConfirmedSearch> confirmed;    ///< where the finisher ended at a coarser resolution than `fine`, which then counts what came after
 };
 
 /// The resolution of a search: half the intervals of its task along each contact line, within these limits of the rule
@@ -38,6 +48,15 @@ bool can_be_coarser(const DesignTask& task);
 /// @throws InvalidInput as optimise_design()
 TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOptions& options);
 
+/// The best design met, before choices and steps.
+inline const DesignReport& exact_of(const TwoLevelDesign& found) { return found.design.exact ? *found.design.exact : found.design.after; }
+
+/// Whether every load case of a design was solved.
+bool is_usable(const DesignReport& report);
+
+/// Where a search goes on from a design, scaled.
+Eigen::VectorXd start_at(const DesignProblem& problem, const DesignReport& report);
+
 /// The budgets that a design found has left of those of its search.
 SolverOptions left_of(SolverOptions options, const DesignResult& found);
 
@@ -47,6 +66,14 @@ SolverOptions left_of(SolverOptions options, const DesignResult& found);
 /// @param problem  of that resolution; it judges the designs
 /// @param x_found  of the design, scaled
 std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignResult& found, const Eigen::VectorXd& x_found);
+
+/// Shows a design found at a coarser resolution by that of the problem, without a search there.
+/// @param after, exact  DesignResult::after and ::exact by the problem
+void confirm(const DesignProblem& problem, DesignReport after, std::optional<DesignReport> exact, TwoLevelDesign& found);
+
+/// Sees the given design and the first-order conditions of a confirmed one by the problem too, the latter with the gradients at the design alone. Does nothing where no search
+/// was confirmed.
+void complete_confirmed(DesignProblem& problem, TwoLevelDesign& found);
 
 /// Continues at the fine level from the problem's start by the finisher; the result replaces the design's fine part.
 void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);

@@ -49,15 +49,15 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
   }
 }
 
-MeshModel DesignProblem::made_mesh(const MeshPlacement& placement) const {
-  return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement,
+MeshModel DesignProblem::made_mesh(const MeshPlacement& placement, const std::vector<double>& phases) const {
+  return make_mesh_model(task_.pair, task_.material, {task_.resolution.quadrature, phases}, task_.effects, placement,
                          {.structure = task_.structure.get(), .root_stress = task_.root_stress.get(), .shafts = task_.shafts.get()},
                          for_each_in_parallel);
 }
 
 std::shared_ptr<const MeshModel> DesignProblem::shared_mesh(const MeshPlacement& placement) const {
-  const auto make = [&] { return made_mesh(placement); };
-  if (!task_.meshes) return std::make_shared<const MeshModel>(make());
+  const auto make = [&](const std::vector<double>& phases) { return made_mesh(placement, phases); };
+  if (!task_.meshes) return std::make_shared<const MeshModel>(make(task_.resolution.phases));
   return task_.meshes->mesh({placement, task_.resolution, task_.effects.list(), task_.structure, task_.root_stress, task_.shafts}, make);
 }
 
@@ -207,7 +207,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
   ++*cycles_;
   const auto analyse = [&](const MeshModel& mesh_model) { return analyse_cycle(mesh_model, of_scene, torque, parameters, root_stresses_, earlier); };
   if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
-  const MeshPlaced placed = [this](const MeshPlacement& placement) { return made_mesh(placement); };
+  const MeshPlaced placed = [this](const MeshPlacement& placement) { return made_mesh(placement, task_.resolution.phases); };
   return analyse(with_perturbed_meshes(model(scene), placed, parameters));
 }
 

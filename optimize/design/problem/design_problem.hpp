@@ -131,7 +131,7 @@ class DesignProblem {
   std::vector<double> scene_weights() const;
 
  private:
-  MeshModel made_mesh(const MeshPlacement& placement) const;
+  MeshModel made_mesh(const MeshPlacement& placement, const std::vector<double>& phases) const;
   std::shared_ptr<const MeshModel> shared_mesh(const MeshPlacement& placement) const;
   FlankCondition condition(int scene, const PerGear<Modification>& modification) const;
   void find_fillets();

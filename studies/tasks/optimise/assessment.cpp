@@ -128,9 +128,10 @@ int most_tolerance_intervals(const Study& study) {
 
 }  // namespace
 
-Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const TwoLevelDesign& found,
                           const ProgressReport& progress) {
   const Stopwatch clock;
+  const DesignResult& design = found.design;
   Assessment assessment;
   if (study.table<OptimiseTable>().assessment.rules) {
     if (progress) progress("trying rules of thumb", 0, 1, "");
@@ -147,11 +148,12 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   // Rounding to the grinder's steps leaves the optimum.
   if (design.exact) assessment.is_of = design.choices.empty() ? AssessedDesign::BeforeRounding : AssessedDesign::BeforeChoices;
   const DesignReport& best = design.exact ? *design.exact : design.after;
-  const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
+  const bool usable = is_usable(best);
   const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
   const bool keeps_bounds = problem.violation(best.analysis.modification) <= DesignLog::tolerance;  // else they are what is in the way
   if (usable && !best.analysis.cycles.empty() && is_infeasible && keeps_bounds && problem.has_upper_bounds()) {
-    assessment.relaxation = find_relaxation(problem, best.analysis.modification, best.variables);
+    assessment.relaxation = find_relaxation(problem, best.analysis.modification, best.variables,
+                                            found.confirmed ? NeighbourGradients::Never : NeighbourGradients::IfNeeded);
   }
   if (usable && !best.analysis.cycles.empty() && !is_infeasible) {
     const DesignProblem last = last_stage(problem, design.stages);

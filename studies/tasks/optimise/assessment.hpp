@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "optimize/design/design_optimiser.hpp"
+#include "optimize/design/two_level.hpp"
 #include "optimize/assessment/optimum.hpp"
 #include "optimize/assessment/relaxation.hpp"
 #include "optimize/assessment/rules_of_thumb.hpp"
@@ -46,8 +46,9 @@ struct Assessment {
 };
 
 /// @param problem  that was optimised; its limits may be tighter than those asked for, by what extremes between the positions exceed those at them
+/// @param found    by the search
 /// @param asked    the task with the limits asked for, by which other designs are judged and which sentences name
-Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const DesignResult& design,
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignTask& asked, const TwoLevelDesign& found,
                           const ProgressReport& progress);
 
 /// The designs before and after, and the best rule of thumb where there is one, over draws.

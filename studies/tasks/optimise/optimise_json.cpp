@@ -55,10 +55,18 @@ Json resolution_json(const LevelWork& work) {
 }
 
 Json assessment_json(const SearchWork& work) {
-  return {{"search", resolution_json(work.search)},
-          {"assessed", resolution_json(work.fine)},
-          {"objective_seen_by_search", work.objective_seen_by_search},
-          {"searches", work.search.resolution.quadrature.intervals == work.fine.resolution.quadrature.intervals ? 1 : 2}};
+  Json json{{"search", resolution_json(work.search)},
+            {"assessed", resolution_json(work.fine)},
+            {"objective_seen_by_search", work.objective_seen_by_search},
+            {"searches", work.search.resolution.quadrature.intervals == work.fine.resolution.quadrature.intervals ? 1 : 2}};
+  if (const std::optional<ConfirmedSearch>& confirmed = work.confirmed) {
+    json["confirmed"] = {{"finished", resolution_json(confirmed->work)},
+                         {"objective", confirmed->objective},
+                         {"objective_seen", confirmed->objective_seen},
+                         {"residual", confirmed->optimality.residual},
+                         {"complementarity", confirmed->optimality.complementarity}};
+  }
+  return json;
 }
 
 Json design_report_json(const DesignReport& report, const DesignTask& task) {

@@ -16,6 +16,7 @@ namespace flankwright::studies {
 struct SearchWork {
   LevelWork search, fine;
   double objective_seen_by_search{not_given};  ///< of the optimum on the coarse level, outside units
+  std::optional<ConfirmedSearch> confirmed;    ///< TwoLevelDesign::confirmed
   double objective_at_positions{not_given};  ///< of what is to be ground, at the fine level's positions alone: what it is compared by, outside units
 };
 

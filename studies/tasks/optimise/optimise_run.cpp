@@ -38,7 +38,7 @@ class OptimiseRun {
     const TwoLevelDesign found = search_.find(problem, choice);
     found_.task = search_.task();
     found_.design = found.design;
-    found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
+    found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.confirmed, found.design.after.objective};
     const auto between = [&](const DesignAnalysis& of) { return search_.resolved_cycles(problem, of, false); };
     if (!study.table<OptimiseTable>().pareto_objectives.empty()) {
       const Stopwatch clock;
@@ -50,7 +50,7 @@ class OptimiseRun {
     }
     const DesignResult& design = found_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
-    Assessment assessment = assess_optimum(study, problem, found_.task, design, run_.progress());
+    Assessment assessment = assess_optimum(study, problem, found_.task, found, run_.progress());
     if (study.table<OptimiseTable>().scatter.asked()) {
       assessment.is_of = AssessedDesign::WithoutScatter;
       choose_over_draws(problem);

@@ -25,18 +25,6 @@ namespace {
 /// Relative gain of the objective below which two designs are as good.
 constexpr double worth_going_on = 1e-3;
 
-/// The best design met, before choices and steps.
-const DesignReport& exact_of(const TwoLevelDesign& found) { return found.design.exact ? *found.design.exact : found.design.after; }
-
-bool is_usable(const DesignReport& report) {
-  return std::ranges::all_of(report.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-}
-
-/// Where a search goes on from a design.
-Eigen::VectorXd start_at(const DesignProblem& problem, const DesignReport& report) {
-  return problem.scaled_design(report.variables).cwiseMax(0.0).cwiseMin(1.0);
-}
-
 }  // namespace
 
 OptimiseSearch::OptimiseSearch(StudyRun& run) : run_(run), results_(run.results()) {
@@ -55,13 +43,16 @@ TwoLevelDesign OptimiseSearch::find(DesignProblem& problem, const DesignOptions&
   const std::vector<double> by_intervals = take_more_intervals(problem, exact, found);
   choose_what_to_grind(problem, options, found);
   keep_constraints_where_finer(problem, options, by_intervals, found);
-  if (!seeks_extremes(results_.study)) return found;
-  const DesignResolver resolve = [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); };
-  if (exceeds_between_positions(problem, found)) {
-    problem = DesignProblem(task_);
-    keep_limits_between_positions(problem, resolve, found);
+  if (seeks_extremes(results_.study)) {
+    const DesignResolver resolve = [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); };
+    if (exceeds_between_positions(problem, found)) {
+      problem = DesignProblem(task_);
+      keep_limits_between_positions(problem, resolve, found);
+    }
+    search_between_positions(problem, resolve, found);
   }
-  search_between_positions(problem, resolve, found);
+  show_accurately(problem, found);
+  complete_confirmed(problem, found);
   return found;
 }
 
@@ -184,37 +175,6 @@ std::vector<double> OptimiseSearch::take_more_intervals(DesignProblem& problem, 
     found.design.seconds = seconds + clock.seconds();
   }
   return {};
-}
-
-void OptimiseSearch::keep_accuracy(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
-  while (results_.fidelity_choice) {
-    const Stopwatch clock;
-    const double seconds = found.design.seconds;
-    const DesignReport& best = exact_of(found);
-    if (!is_usable(best)) return;
-    std::vector<ResolvedCycle> resolved = resolved_cycles(problem, best.analysis, true);
-    std::vector<StudyRun::HeldCase> held;
-    std::vector<DesignScene> scenes;
-    for (int i = 0; i < problem.scenes(); ++i) scenes.push_back(scene_of(best.analysis, i));
-    for (std::size_t i = 0; i < scenes.size(); ++i) {
-      const DesignScene& scene = scenes[i];
-      held.push_back({{scene.name, scene.torque, &problem.model(static_cast<int>(i)), &best.analysis.cycles[i], &resolved[i]},
-                      &scene.condition,
-                      &resolved[i],
-                      scene.operation,
-                      true});
-    }
-    if (may_look_finer()) run_.hold_against_finer(held);
-    std::vector<JudgedCase> cases;
-    for (const StudyRun::HeldCase& of : held) cases.push_back(of.judged);
-    constexpr int most_doublings = 2;  // a search at a level between would be left anyway
-    if (!refine_resolution(cases, results_, most_doublings)) return;
-    const Eigen::VectorXd x = start_at(problem, best);
-    run_.set_intervals(results_.study.fidelity.quadrature.intervals);  // and the positions with them
-    go_on_at_resolution(problem, options, x, found);
-    found.fine.seconds += clock.seconds();
-    found.design.seconds = seconds + clock.seconds();
-  }
 }
 
 bool OptimiseSearch::may_look_finer() const {

@@ -49,8 +49,17 @@ class OptimiseSearch {
   /// the intervals then, up to those of an analysis, unless the design rounded to the steps that can be ground is seen well enough.
   /// @returns by how much still more intervals change the constraints, as FinerLook has it; empty where that is not known
   std::vector<double> take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
-  /// Where the study asks for an accuracy, the figures of the best design are to keep it: while they do not, the search goes on at the resolution of refine_resolution().
+  /// Where the study asks for an accuracy, the figures of the best design are to keep it: while they do not, it is seen at the resolution of refine_resolution(), and the search
+  /// goes on there unless that is_confirmed().
   void keep_accuracy(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+  /// Whether the figures of a design do not keep the accuracy and a finer resolution may. It is the study's and that of task() then.
+  bool needs_finer_resolution(const DesignProblem& problem, const DesignReport& report);
+  /// Whether a design is seen as the search saw it at a resolution that has changed: is_turned() by the accuracy is false, and it keeps the limits. `problem` and what was found
+  /// are of the changed resolution then. Lists of objectives are never, as each of their objectives has a limit by the resolution that it was found with.
+  bool is_confirmed(DesignProblem& problem, const Eigen::VectorXd& x, TwoLevelDesign& found);
+  /// What is ground may be known less well than the optimum before it was rounded. Where the study asks for an accuracy, it is shown at a resolution that keeps it, without another
+  /// search.
+  void show_accurately(DesignProblem& problem, TwoLevelDesign& found);
   bool may_look_finer() const;
   /// Continues from a design, or from optima beside it, at a resolution that has changed.
   void go_on_at_resolution(DesignProblem& problem, const DesignOptions& options, const Eigen::VectorXd& x, TwoLevelDesign& found);

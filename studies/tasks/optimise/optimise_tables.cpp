@@ -114,14 +114,28 @@ std::string error_row(std::size_t width, double before, double after) {
   return fmt::format("{:<{}}  {:>12}  {:>12}\n", "  known to", width, known_to(before), known_to(after));
 }
 
+/// "12 intervals and 32 positions"
+std::string resolution_in_words(const MeshResolution& resolution) {
+  return fmt::format("{} intervals and {} positions", resolution.quadrature.intervals, resolution.phases.size());
+}
+
 /// That a design is shown for which the first-order conditions of an optimum do not hold; empty where they do, or where none was looked for.
-std::string doubt_in_words(const DesignResult& design) {
-  const double largest = std::max(design.optimality.residual, design.optimality.complementarity);
+std::string doubt_in_words(const DesignResult& design, const std::optional<ConfirmedSearch>& confirmed) {
+  const Optimality& of_search = confirmed ? confirmed->optimality : design.optimality;
+  const double largest = std::max(of_search.residual, of_search.complementarity);
   if (design.status == SolverStatus::Infeasible || !(largest > Optimality::holds)) return {};
   return fmt::format(
       "The design shown is not proven to be an optimum. Its first-order conditions are off by {:.2g} %, counted in the objective at the start for the "
       "range of a variable; an optimum's are off by {:.2g} % at most. Other starts or more analyses may find a better design.\n",
       100.0 * largest, 100.0 * Optimality::holds);
+}
+
+/// That a design was found at a coarser resolution than it is shown by.
+std::string confirmed_in_words(const ConfirmedSearch& confirmed, const MeshResolution& shown, const DesignTask& task) {
+  const std::string unit = behind_number(task.objective_unit());
+  return fmt::format("The search ended with {}, by which its optimum has {:.5g}{}. With {} it has {:.5g}{}, and the search did not go on there.\n",
+                     resolution_in_words(confirmed.work.resolution), confirmed.objective, unit, resolution_in_words(shown), confirmed.objective_seen,
+                     unit);
 }
 
 /// What is minimised, with the weights of several outputs.
@@ -181,16 +195,18 @@ std::string optimise_summary(const StudyResults& results) {
   }
   out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
-  out += doubt_in_words(design);
+  out += doubt_in_words(design, found.search_work.confirmed);
   for (const std::string& sentence : grinding_choices_in_words(design, task, statistic_of_choices(results))) out += sentence + "\n";
   if (design.exact) out += loss_in_words(design, task) + excess_of_exact_in_words(design, task) + gain_in_words(design);
   const SearchWork& work = found.search_work;
   const auto level = [&](const LevelWork& w) {
-    return fmt::format("{} cycles of {} intervals and {} positions, {:.2g} ms each", w.cycles, w.resolution.quadrature.intervals,
-                       w.resolution.phases.size(), 1e3 * w.seconds / static_cast<double>(w.cycles));
+    return fmt::format("{} cycles of {}, {:.2g} ms each", w.cycles, resolution_in_words(w.resolution),
+                       1e3 * w.seconds / static_cast<double>(w.cycles));
   };
   const bool two = work.search.resolution.quadrature.intervals != work.fine.resolution.quadrature.intervals;
-  out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
+  const std::string finished = work.confirmed ? fmt::format("{}; looked at by {}", level(work.confirmed->work), level(work.fine)) : level(work.fine);
+  out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), finished) : finished + "\n";
+  if (work.confirmed) out += confirmed_in_words(*work.confirmed, work.fine.resolution, task);
   out += life_table(results, width) + shaft_table(results, width);
   if (found.scatter) out += scatter_summary(*found.scatter, task, results.study);
   // Other designs are judged at the positions: so is, beside them, the optimum.

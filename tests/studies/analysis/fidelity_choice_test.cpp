@@ -7,6 +7,8 @@
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "studies/tasks/optimise/optimise_results.hpp"
+#include "studies/tasks/optimise/optimise_tables.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -118,8 +120,7 @@ comparison.rules = "off"
 [optimise.variables]
 "pinion.modification.lead_crowning" = [0, 20]
 )";
-  const auto optimised = [&](const std::string& fidelity) { return run_study(small_study(fidelity, search, "task = \"optimise\"\n")); };
-  const StudyResults found = optimised("accuracy = \"2 %\"");
+  const StudyResults found = run_study(small_study("accuracy = \"2 %\"", search, "task = \"optimise\"\n"));
   REQUIRE(found.fidelity_choice);
   const FidelityChoice& choice = *found.fidelity_choice;
   CHECK(choice.kept);
@@ -136,6 +137,35 @@ comparison.rules = "off"
   finer.cycle.positions = 128;
   const StudyResults fine = run_study(finer);
   CHECK(after->summary.peak_contact_stress == Approx(fine.loaded.at(0).summary.peak_contact_stress).epsilon(0.02));
+}
+
+TEST_CASE("A search that a finer look confirms ends as well as one that goes on there", "[studies][accuracy][fidelity-choice]") {
+  const std::string search = R"([optimise]
+objective = "peak_contact_stress"
+step = "none"
+comparison.rules = "off"
+[optimise.variables]
+"pinion.modification.lead_crowning" = [0, 20]
+"pinion.modification.lead_slope" = [-10, 10]
+)";
+  const auto optimised_with = [&](const std::string& fidelity, const std::string& more) {
+    return run_study(small_study(fidelity, search + more, "task = \"optimise\"\n"));
+  };
+  const StudyResults found = optimised_with("accuracy = \"0.5 %\"", "");
+  const SearchWork& work = optimised(found).search_work;
+  CHECK(found.fidelity_choice->kept);  // of the design that is shown, whose errors may be larger than those of the search
+  REQUIRE(work.confirmed);
+  const MeshResolution &ended = work.confirmed->work.resolution, &shown = work.fine.resolution;
+  CHECK(ended.quadrature.intervals * ended.phases.size() < shown.quadrature.intervals * shown.phases.size());
+  CHECK(shown.phases.size() == found.phases.size());
+  CHECK(work.confirmed->objective_seen == Approx(work.confirmed->objective).epsilon(0.005));
+  CHECK(optimise_summary(found).find("the search did not go on there") != std::string::npos);
+  const std::string gap = std::string("gap = \"") + to_string(found.study.fidelity.gap) + "\"\n";
+  const std::string intervals = "quadrature = { rule = \"graded\", intervals = " + std::to_string(shown.quadrature.intervals) + " }\n";
+  const StudyResults finer = optimised_with(gap + intervals, "[cycle]\npositions = " + std::to_string(shown.phases.size()) + "\n");
+  const double best = optimised(finer).search_work.objective_at_positions;
+  CHECK(work.objective_at_positions <= 1.005 * best);
+  CHECK(work.objective_at_positions >= (1.0 - 1e-3) * best);
 }
 
 TEST_CASE("An accuracy that no resolution keeps is a requirement not met", "[studies][accuracy][fidelity-choice]") {
