@@ -280,7 +280,12 @@ void resolve_front(const DesignProblem& problem, const std::vector<OutputConstra
     const DesignAnalysis& analysis = valued.analyse(point.x, false);
     if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return point;
     const std::vector<ResolvedCycle> cycles = resolve(analysis);
-    point.values = resolved_values(valued, front.objectives, analysis, cycles);
+    point.values.clear();
+    point.errors.clear();
+    for (const ResolvedValue& resolved : resolved_values(valued, front.objectives, analysis, cycles)) {
+      point.values.push_back(resolved.value);
+      point.errors.push_back(resolved.error);
+    }
     DesignReport report = report_design(problem, analysis);
     resolve_report(problem, cycles, report);
     point.constraint_values = report.constraint_values;

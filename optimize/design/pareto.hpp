@@ -13,8 +13,9 @@ struct ParetoPoint {
   Eigen::VectorXd x;           ///< scaled design
   std::vector<double> values;  ///< of the objectives, outside units
   SolverStatus status{SolverStatus::NotRun};
-  double constraint_violation{not_given};                          ///< [-]
-  bool dominated{false};                                           ///< another point is no worse in every objective and better in one, beyond `same`
+  double constraint_violation{not_given};  ///< [-]
+  std::vector<double> errors{};  ///< estimated discretisation errors of the values, NaN where none was estimated; empty before resolve_front()
+  bool dominated{false};         ///< another point is no worse in every objective and better in one, beyond `same`
   std::vector<double> constraint_values{}, modification_values{};  ///< as DesignReport's; empty before resolve_front()
 };
 

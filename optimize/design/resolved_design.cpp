@@ -95,13 +95,13 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
   return errors;
 }
 
-std::vector<double> resolved_values(const DesignProblem& problem, const std::vector<Objective>& objectives, const DesignAnalysis& analysis,
-                                    const std::vector<ResolvedCycle>& cycles) {
+std::vector<ResolvedValue> resolved_values(const DesignProblem& problem, const std::vector<Objective>& objectives, const DesignAnalysis& analysis,
+                                           const std::vector<ResolvedCycle>& cycles) {
   const std::vector<double> weights = problem.scene_weights();
   const FurtherError none;
   const Resolving resolving{problem, analysis, cycles, none};
-  std::vector<double> values;
-  for (const Objective& objective : objectives) values.push_back(value_of(objective, resolving.measures_of(objective), weights).value);
+  std::vector<ResolvedValue> values;
+  for (const Objective& objective : objectives) values.push_back(value_of(objective, resolving.measures_of(objective), weights));
   return values;
 }
 

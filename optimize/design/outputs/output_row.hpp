@@ -114,6 +114,7 @@ struct DesignOutput {
   bool over_spectrum{false};  ///< a sum over all load cases of the spectrum, the same in each of them
   bool needs_oil{false};      ///< a lubricant and a speed
   bool of_roots{false};       ///< needs DesignTask::root_stress
+  bool sees_edges{false};     ///< grows with the stress on tip edges, or with the load there
   bool is_least{false};       ///< the least of the smooth functions instead of the largest; can be bounded, not minimised
   AtPoints at_points{nullptr};
   PointDerivative point_derivative{nullptr};

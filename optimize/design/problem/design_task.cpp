@@ -1,6 +1,7 @@
 #include "optimize/design/problem/design_task.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flankwright {
 
@@ -36,6 +37,11 @@ bool DesignVariable::touches(Member of, ModificationParameter other) const {
 }
 
 double DesignVariable::outside_factor() const { return flankwright::outside_factor(describe(parameter).kind); }
+
+double DesignVariable::outside(double value) const {
+  constexpr double finest = 1e9;  // parts of a unit: far below what can be ground, far above round-off
+  return std::round(value * outside_factor() * finest) / finest;
+}
 
 const char* DesignVariable::unit() const { return unit_of(describe(parameter).kind); }
 

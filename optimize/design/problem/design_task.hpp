@@ -32,6 +32,8 @@ struct DesignVariable {
   /// Factor from the inside unit to that of reports: um, but mm for the extent of a relief, arcsec/deg^2 for parabolic_te.
   double outside_factor() const;
   const char* unit() const;
+  /// A value in that unit, without the round-off of the conversion: 6 um, where 0.006 mm times 1000 is 5.999999999999999.
+  double outside(double value) const;
 };
 
 /// A modification parameter that follows a variable: factor * variable + offset.

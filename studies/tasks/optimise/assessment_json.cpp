@@ -27,7 +27,7 @@ Json modifications_json(const NamedDesign& design) {
       if (p.get(m) == 0.0 || !is_said(p)) continue;
       const DesignVariable v{
           .path = std::string(name_of(member)) + ".modification." + std::string(p.key), .member = member, .parameter = p.parameter};
-      json.push_back({{"name", v.path}, {"value", p.get(m) * v.outside_factor()}, {"unit", v.unit()}});
+      json.push_back({{"name", v.path}, {"value", v.outside(p.get(m))}, {"unit", v.unit()}});
     }
   }
   return json;
@@ -190,7 +190,7 @@ Json validation_json(const Validation& validation, const DesignTask& task, const
 
 Json variables_json(const std::vector<double>& values, const DesignTask& task) {
   Json variables = Json::object();
-  for (std::size_t i = 0; i < task.variables.size(); ++i) variables[task.variables[i].path] = values[i] * task.variables[i].outside_factor();
+  for (std::size_t i = 0; i < task.variables.size(); ++i) variables[task.variables[i].path] = task.variables[i].outside(values[i]);
   return variables;
 }
 

@@ -3,20 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/base/units.hpp"
+#include "optimize/design/outputs/design_output.hpp"
 
 namespace flankwright::studies {
 
 namespace {
 
-/// The outputs that grow with the stress on tip edges.
-constexpr std::array with_edges{Output::PeakContactStress, Output::EdgeStress, Output::TipEdgeShare, Output::ContactDamage,
-                                Output::ContactUtilisation};
-
-bool sees_edges(const ObjectiveTerm& term) { return std::ranges::find(with_edges, term.output) != with_edges.end(); }
+bool sees_edges(const ObjectiveTerm& term) { return design_output(term.output).sees_edges; }
 
 }  // namespace
 

@@ -74,7 +74,7 @@ Json design_report_json(const DesignReport& report, const DesignTask& task) {
   for (const DesignVariable& v : task.variables) units[v.path] = v.unit();
   for (std::size_t t = 0; t < task.links.size(); ++t) {
     const DesignVariable& v = task.links[t].linked;
-    linked[v.path] = report.linked[t] * v.outside_factor();
+    linked[v.path] = v.outside(report.linked[t]);
     units[v.path] = v.unit();
   }
   Json json{{"variables", variables_json(report.variables, task)},
@@ -180,6 +180,7 @@ Json front_json(const ParetoFront& front, const DesignTask& task) {
           {"points", list(front.points,
                           [&](const ParetoPoint& point) -> Json {
                             Json json{{"values", point.values},
+                                      {"errors", point.errors},
                                       {"variables", scaled_design_json(point.x, task)},
                                       {"status", to_string(point.status)},
                                       {"constraint_violation", point.constraint_violation},

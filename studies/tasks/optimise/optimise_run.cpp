@@ -39,13 +39,13 @@ class OptimiseRun {
     found_.task = search_.task();
     found_.design = found.design;
     found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.confirmed, found.design.after.objective};
-    const auto between = [&](const DesignAnalysis& of) { return search_.resolved_cycles(problem, of, false); };
     if (!study.table<OptimiseTable>().pareto_objectives.empty()) {
       const Stopwatch clock;
       problem.set_start({});  // the file's own values again
       const std::vector<Eigen::VectorXd> known{problem.scaled_design(found_.design.after.variables).cwiseMax(0.0).cwiseMin(1.0)};
       found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, known);
-      if (seeks_extremes(study)) resolve_front(problem, found_.task.constraints, between, known, *found_.front);
+      const auto with_errors = [&](const DesignAnalysis& of) { return search_.resolved_cycles(problem, of, true); };
+      if (seeks_extremes(study)) resolve_front(problem, found_.task.constraints, with_errors, known, *found_.front);
       results_.steps.push_back({"front", "compromises of several objectives", clock.seconds()});
     }
     const DesignResult& design = found_.design;

@@ -45,13 +45,18 @@ std::string history_csv(const DesignResult& design) {
 std::string pareto_csv(const ParetoFront& front, const DesignTask& task) {
   std::string csv;
   for (const Objective& objective : front.objectives) csv += csv_field(objective.name() + " [" + objective.unit() + "]") + ",";
+  for (const Objective& objective : front.objectives) csv += csv_field(objective.name() + " error [" + objective.unit() + "]") + ",";
   for (const DesignVariable& v : task.variables) csv += csv_field(v.path + " [" + v.unit() + "]") + ",";
   csv += "status,constraint_violation,dominated\n";
   for (const ParetoPoint& point : front.points) {
-    for (double value : point.values) csv += fmt::format("{},", value);
+    for (const double value : point.values) csv += fmt::format("{},", value);
+    for (std::size_t k = 0; k < front.objectives.size(); ++k) {
+      const bool is_known = k < point.errors.size() && !std::isnan(point.errors[k]);
+      csv += is_known ? fmt::format("{},", point.errors[k]) : ",";
+    }
     for (std::size_t i = 0; i < task.variables.size(); ++i) {
       const DesignVariable& v = task.variables[i];
-      csv += fmt::format("{},", v.unscaled(point.x[static_cast<Eigen::Index>(i)]) * v.outside_factor());
+      csv += fmt::format("{},", v.outside(v.unscaled(point.x[static_cast<Eigen::Index>(i)])));
     }
     csv += fmt::format("{},{},{}\n", to_string(point.status), point.constraint_violation, point.dominated ? "yes" : "no");
   }
@@ -162,8 +167,8 @@ std::string optimise_summary(const StudyResults& results) {
   std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>9}\n", "", width, "before", "after", "change");
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", plain_name(v.path), width, design.before.variables[i] * v.outside_factor(),
-                       design.after.variables[i] * v.outside_factor(), describe(v.parameter).kind == ParameterKind::Fraction ? "of 1" : v.unit());
+    out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", plain_name(v.path), width, v.outside(design.before.variables[i]),
+                       v.outside(design.after.variables[i]), describe(v.parameter).kind == ParameterKind::Fraction ? "of 1" : v.unit());
   }
   out += fmt::format("\n{} [{}]\n", objective_in_words(task.combined_objective()), task.objective_unit());
   for (const std::size_t s : listed.indices()) {

@@ -58,8 +58,8 @@ void add_tables(Database& database, const StudyResults& results) {
   Statement variables(database, "INSERT INTO variables VALUES (?, ?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    const double factor = v.outside_factor();
-    variables.row(v.path, v.unit(), v.lower * factor, v.upper * factor, design.before.variables[i] * factor, design.after.variables[i] * factor);
+    variables.row(v.path, v.unit(), v.outside(v.lower), v.outside(v.upper), v.outside(design.before.variables[i]),
+                  v.outside(design.after.variables[i]));
   }
   Statement scenes(database, "INSERT INTO scenes VALUES (?, ?, ?, ?, ?)");
   const ListedScenes listed(task);

@@ -134,7 +134,7 @@ std::vector<NamedText> scatter_tables(const ScatterResult& result, const DesignT
     for (const ClassDesign& c : result.classes) {
       csv += fmt::format("{},{},{},{},{}", c.tolerance_class, c.design.value, c.without_scatter, c.contact_stress, c.te);
       const std::vector<double> values = unscaled(c.design.x, task);
-      for (std::size_t i = 0; i < values.size(); ++i) csv += fmt::format(",{}", values[i] * task.variables[i].outside_factor());
+      for (std::size_t i = 0; i < values.size(); ++i) csv += fmt::format(",{}", task.variables[i].outside(values[i]));
       csv += "\n";
     }
     tables.push_back({"classes.csv", csv});

@@ -9,7 +9,8 @@ function draw_front(plot, front, [across, up], height = 320) {
   const named = ({ name, unit }) => (pretty_unit(unit) ? `${words(name)} [${pretty_unit(unit)}]` : words(name));
   const points = list(front.points).map(record)
     .map((point) => ({ x: point.values[across], y: point.values[up], dominated: point.dominated, beyond: beyond_limit(point),
-      note: [...objectives.filter((_, i) => i !== across && i !== up)
+      note: [...[across, up].filter((k) => is_number(list(point.errors)[k])).map((k) => `${words(objectives[k].name)} known to ± ${fmt(point.errors[k], 2)}`),
+        ...objectives.filter((_, i) => i !== across && i !== up)
         .map((other) => `${words(other.name)} ${fmt(point.values[objectives.indexOf(other)])} ${pretty_unit(other.unit)}`),
         ...(beyond_limit(point) > 0 ? [`beyond a limit by ${fmt(beyond_limit(point), 2)} %`] : [])].join(", ") || null }));
   const best = points.filter((point) => !point.dominated);
@@ -44,7 +45,7 @@ function front_table(body, front, units) {
     columns: [...list(front.objectives).map(record).map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit) })),
       ...paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]) })), ...outputs.map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit), digits: 4 })),
       ...(limited ? [{ label: "Beyond a limit by", unit: "%" }] : [])],
-    rows: list(front.points).map(record).map((point) => [...point.values, ...paths.map((path) => settled(point.variables[path], units[path])),
+    rows: list(front.points).map(record).map((point) => [...point.values.map((value, k) => ({ value, text: with_error(value, list(point.errors)[k], 4) })), ...paths.map((path) => settled(point.variables[path], units[path])),
       ...outputs.map(({ name }) => output_of(point, name)), ...(limited ? [beyond_limit(point)] : [])]),
   });
 }

@@ -227,7 +227,11 @@ TEST_CASE("A front is in the results and has its own table", "[studies][optimise
   const std::size_t found = front["points"].size();
   REQUIRE(found >= 2);
   CHECK(((found == 3) != !front["message"].get<std::string>().empty()));  // fewer points than asked for have a reason
-  for (const json& point : front["points"]) CHECK(point["variables"].size() == 4);
+  for (const json& point : front["points"]) {
+    CHECK(point["variables"].size() == 4);
+    REQUIRE(point["errors"].size() == 2);
+    for (const std::size_t k : {0, 1}) CHECK(point["errors"][k] > 0.0);
+  }
   CHECK(front["points"][0]["values"][0].get<double>() < front["points"][found - 1]["values"][0].get<double>());
   const std::vector<NamedText> tables = csv_tables(results);
   const auto csv = std::ranges::find(tables, "pareto.csv", &NamedText::name);
