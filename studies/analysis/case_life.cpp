@@ -16,15 +16,25 @@ namespace flankwright::studies {
 namespace {
 
 void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
-  of.loss_factor = local_loss_factor(model, loaded.cycle).value;
+  const CycleNumber factor = local_loss_factor(model, loaded.cycle);
+  of.loss_factor = factor.value;
   const double speed = loaded.operation.speed;
   if (!(speed > 0.0)) return;
   constexpr double watt = 1e3;  // N mm/s
   of.power = loaded.torque * speed / watt;
   const std::optional<Oil> oil = oil_of(life, loaded.operation);
   if (!oil) return;
-  of.friction = schlenk_friction(model.pair, model.face_width, loaded.cycle.force, speed, *oil->lubricant, oil->temperature, oil->roughness);
+  const double force = loaded.cycle.force;
+  const auto friction_under = [&](double of_mesh) {
+    return schlenk_friction(model.pair, model.face_width, of_mesh, speed, *oil->lubricant, oil->temperature, oil->roughness);
+  };
+  of.friction = friction_under(force);
   of.loss_power = of.friction * of.loss_factor * of.power;
+  if (factor.gradient.size() == 0) return;
+  const auto friction_power = [&](double of_mesh) { return friction_under(of_mesh) * of.power * of_mesh / force; };  // the power is as the force
+  const double step = 1e-5 * force;  // its square and round-off over it are below 1e-9 of powers of the force
+  const double by_force = (friction_power(force + step) - friction_power(force - step)) / (2.0 * step);
+  of.loss_power_gradient = of.friction * of.power * factor.gradient + of.loss_factor * by_force * loaded.cycle.force_derivative;
 }
 
 /// Takes the extremes of one cycle's points.

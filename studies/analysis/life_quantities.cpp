@@ -22,6 +22,7 @@ constexpr std::array all_life_quantities{
                  .of_pair = &CaseLife::loss_power,
                  .error = &CaseLifeErrors::loss_power,
                  .column = {"loss", "{:.4g}"},
+                 .gradient = &CaseLife::loss_power_gradient,
                  .is_sampled = true,
                  .is_compared = true},
     LifeQuantity{.key = "film_friction", .of_pair = &CaseLife::film_friction, .is_in_csv = false},

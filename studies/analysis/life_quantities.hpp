@@ -25,8 +25,9 @@ struct LifeQuantity {
   double CaseLifeErrors::*error{nullptr};             ///< null: none is estimated
   DamagedPoints SpectrumLife::*of_spectrum{nullptr};  ///< of a damage: where the sum over the spectrum is largest; null: it is no damage
   LifeColumn column{};
-  std::optional<Output> output{};  ///< the output that it or its reciprocal is, for errors and derivatives; none: it has neither
-  bool is_reciprocal{false};       ///< the output is 1 / value
+  std::optional<Output> output{};                   ///< the output that it or its reciprocal is, for errors and derivatives; none: it has neither
+  Eigen::RowVectorXd CaseLife::*gradient{nullptr};  ///< of what is no output; null: there is none
+  bool is_reciprocal{false};                        ///< the output is 1 / value
   bool smaller_is_worse{false};
   bool is_in_csv{true};     ///< a column of life.csv
   bool is_sampled{false};   ///< every sample of a sweep has it

@@ -28,6 +28,7 @@ struct CaseLife {
   double friction{not_given};                                     ///< mu_mz by Schlenk [-]
   double power{not_given};                                        ///< transmitted [W]
   double loss_power{not_given};                                   ///< [W]
+  Eigen::RowVectorXd loss_power_gradient{};                       ///< [W/unit]; empty where the cycle has no derivatives
   double film_friction{not_given};                                ///< mu_m of ISO/TS 6336-22, of the temperatures [-]
   double bulk_temperature{not_given};                             ///< of the teeth, of the film [deg C]
   double film{not_given};                                         ///< least lambda_GF [-]
@@ -54,6 +55,7 @@ struct CaseLife {
 /// The point of a gear that a spectrum damages most.
 struct DamagedPoint {
   double damage{0.0};                      ///< sum over the spectrum [-]
+  Eigen::RowVectorXd gradient{};           ///< of the damage at this point, 1 x m; empty where the cycles have no derivatives
   double damage_error{not_given};          ///< estimated discretisation error [-]; NaN: not estimated
   double z{not_given}, radius{not_given};  ///< of a flank: on this gear [mm]
   double along{not_given};                 ///< of a fillet: as RootStation::along [-]

@@ -81,6 +81,7 @@ class SpectrumRating {
         at_point = j;
       }
     }
+    worst.gradient = contact_damage_at(model_, loads_, m, curve, at_position, at_point).gradient;
     worst.damage_error = 0.0;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].contact_damage[m] = contact_damage_at(model_, {loads_[k]}, m, curve, at_position, at_point).value;
@@ -103,6 +104,7 @@ class SpectrumRating {
     const RootStation& station = model_.positions[pass.position].root_stress.stations[static_cast<std::size_t>(pass.begin + at)];
     worst.z = station.z;
     worst.along = station.along;
+    worst.gradient = root_damage_at(model_, loads_, m, curve, points, at).gradient;
     worst.damage_error = 0.0;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].root_damage[m] = root_damage(model_, {loads_[k]}, m, curve, points)[at];

@@ -53,17 +53,23 @@ Json gradients_of(const StudyResults& results, const CaseLife& of) {
   const LoadedScene scene{model, loaded.cycle, &loaded.operation, results.life_model.get()};
   const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, outside.parameters());
   Json json = Json::object();
+  const auto fixed = [&](Eigen::RowVectorXd gradient) {
+    for (const Eigen::Index p : moving) gradient[p] = not_given;
+    return outside.row(gradient);
+  };
   for (const LifeQuantity& quantity : life_quantities()) {
-    if (quantity.of_pair == nullptr || !quantity.output) continue;
+    if (quantity.of_pair == nullptr || (!quantity.output && quantity.gradient == nullptr)) continue;
     const std::string key(quantity.key);
     json[key] = nullptr;
     if (std::isnan(of.*quantity.of_pair)) continue;
+    if (quantity.gradient != nullptr) {
+      json[key] = fixed(of.*quantity.gradient);
+      continue;
+    }
     const ObjectiveTerm term{.output = *quantity.output, .name = key, .reciprocal = quantity.is_reciprocal};
     const std::optional<LoadedScene> between = between_positions(term, scene, loaded.resolved);
     const LoadedScene& at = between ? *between : scene;
-    Eigen::RowVectorXd gradient = candidate_value(term, leading_candidates(term, at, 0.0, 1).front(), at).gradient.transpose();
-    for (const Eigen::Index p : moving) gradient[p] = not_given;
-    json[key] = outside.row(gradient);
+    json[key] = fixed(candidate_value(term, leading_candidates(term, at, 0.0, 1).front(), at).gradient.transpose());
   }
   return json;
 }
@@ -102,19 +108,30 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
   return json;
 }
 
-Json damaged_point_json(const std::optional<DamagedPoint>& point) {
+/// Derivatives of a damage by the parameters of the study; null by those that move the points of contact.
+Json damage_gradient(const StudyResults& results, const SpectrumLife& spectrum, const DamagedPoint& point) {
+  const LoadedResult& loaded = results.loaded[results.life->cases[spectrum.cases.front()].loaded];
+  const GradientRows outside(results.study.gradients);
+  Eigen::RowVectorXd gradient = point.gradient;
+  for (const Eigen::Index p : moving_among(results.models[loaded.model].placement.gap, outside.parameters())) gradient[p] = not_given;
+  return outside.row(gradient);
+}
+
+Json damaged_point_json(const StudyResults& results, const SpectrumLife& spectrum, const std::optional<DamagedPoint>& point) {
   if (!point) return nullptr;
   Json json{
       {"damage", point->damage}, {"damage_error", point->damage_error}, {"z_mm", point->z}, {"exceeds_static_limit", point->exceeds_static_limit}};
   if (!std::isnan(point->radius)) json["radius_mm"] = point->radius;
   if (!std::isnan(point->along)) json["along_fillet"] = point->along;
+  if (has_gradients(results) && point->gradient.size() > 0) json["gradient"] = damage_gradient(results, spectrum, *point);
   return json;
 }
 
-Json spectrum_json(const SpectrumLife& spectrum) {
+Json spectrum_json(const StudyResults& results, const SpectrumLife& spectrum) {
   Json json{{"scene", spectrum.scene}, {"design", spectrum.design}, {"cases", spectrum.cases}};
   for (const Member m : both_gears)
-    json[name_of(m)] = {{"contact", damaged_point_json(spectrum.contact[m])}, {"root", damaged_point_json(spectrum.root[m])}};
+    json[name_of(m)] = {{"contact", damaged_point_json(results, spectrum, spectrum.contact[m])},
+                        {"root", damaged_point_json(results, spectrum, spectrum.root[m])}};
   if (spectrum.map.empty()) return json;
   const auto column = [&](const auto& of) { return list(spectrum.map, of); };
   json["map"] = {{"phase", column([](const FlankDamage& p) { return p.phase; })},
@@ -161,7 +178,7 @@ Json life_json(const StudyResults& results) {
   }
   if (results.study.signal) json["signal"] = signal_json(*results.study.signal);
   json["cases"] = list(life.cases, [&](const CaseLife& of) { return life_case_json(results, of); });
-  json["spectra"] = list(life.spectra, spectrum_json);
+  json["spectra"] = list(life.spectra, [&](const SpectrumLife& spectrum) { return spectrum_json(results, spectrum); });
   return json;
 }
 

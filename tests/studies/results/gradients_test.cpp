@@ -189,7 +189,7 @@ TEST_CASE("Derivatives keep what the loads keep", "[studies][gradient]") {
   CHECK(gradients.at("normal_force_N").at(2).get<double>() * 300 == Approx(force).epsilon(kRoundOff));
 }
 
-TEST_CASE("Loss, film, temperatures and their safeties have derivatives beside them", "[studies][gradient][life]") {
+TEST_CASE("Losses, film, temperatures and their safeties have derivatives beside them", "[studies][gradient][life]") {
   constexpr double kDifference = 5e-5;  // step^2 times curvature, and loads' round-off over the step, relative
   const std::string oil = R"(
 [lubricant]
@@ -214,7 +214,7 @@ roughness = 0.4
       case_of({{"analyse.gradients",
                 R"(["pinion.modification.lead_crowning", "misalignment.mesh_misalignment", "load.torque", "misalignment.axial_offset"])"}});
   const json& gradients = here.at("gradients");
-  CHECK(gradients.size() == 6);
+  CHECK(gradients.size() == 7);
   for (std::size_t p = 0; p < keys.size(); ++p) {
     const auto moved = [&](double by) { return case_of({{keys[p].path, std::to_string(keys[p].value + by)}}); };
     const json up = moved(keys[p].step), down = moved(-keys[p].step);
