@@ -37,12 +37,13 @@ function resolution_words(of) {
 }
 
 function resolution_facts(results) {
-  const used = record(results.used), fidelity = record(used.fidelity), { search, assessed, searches } = record(record(results.optimise).assessment);
+  const used = record(results.used), fidelity = record(used.fidelity), { search, assessed, confirmed, searches } = record(record(results.optimise).assessment);
   const compliance = fidelity.compliance && (list(results.loaded).length > 0 || results.sweep) ? ["Compliance", words(fidelity.compliance)] : null;
   const quadrature = compliance ? fidelity.quadrature : null;  // without a load nothing is integrated
   if (!search && !assessed) return [compliance, ["Resolution", resolution_words({ quadrature, positions: record(used.cycle).positions }) || null]];
   return [compliance,
     search ? ["Searched at", resolution_words(record(search))] : null,
+    confirmed ? ["Finished at", resolution_words(record(record(confirmed).finished))] : null,
     assessed ? ["Shown at", resolution_words(record(assessed))] : null,
     searches > 1 ? ["Searches", `${fmt(searches)}, each finer than the one before`] : null];
 }
