@@ -127,7 +127,9 @@ LoadCount count_time_at_level(const LoadSignal& signal, int ranges) {
     level.speed /= level.cycles;
     count.levels.push_back(level);
   }
-  if (count.levels.empty()) throw InvalidInput("torque", "never above 0 while the pinion turns", "one that loads the working flank");
+  if (count.levels.empty())
+    throw InvalidInput("torque", "never above 0 while the pinion turns",
+                       "one that loads the working flank; a torque_factor of -1 turns a signal of the other one round");
   return count;
 }
 

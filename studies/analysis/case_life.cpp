@@ -93,16 +93,32 @@ double stress_safety(const std::optional<SnCurve>& curve, double cycles, double 
   return curve->stress_borne(cycles) / stress;
 }
 
+/// K_Hbeta and K_Halpha of a load case, each at least 1 as ISO 6336-1 demands: flanks better than perfect ones earn nothing. K_Halpha is what the whole of the deviations
+/// has beside K_Hbeta. Where K_Hbeta would be below 1, it is at least that of the profile deviations alone, which a crowning shall not make up for.
+struct FaceAndTransverse {
+  double lead{not_given}, profile{not_given};  ///< NaN where they are not known
+};
+
+FaceAndTransverse at_least_one(const LoadFactors::Triple& of) {
+  const auto clipped = [](double factor) { return factor < 1.0 ? 1.0 : factor; };  // NaN stays
+  const double lead = clipped(of.lead), beside = clipped(of.combined / lead);
+  return {lead, of.lead < 1.0 ? std::fmax(beside, of.profile) : beside};
+}
+
+/// Of a load case by stress or by line loads of the loaded contact; by ISO 6336-1, method C, where it has none.
+FaceAndTransverse load_factors_of(const LoadedResult& loaded, bool from_contact, LoadFactors::Triple LoadFactors::*by) {
+  if (from_contact) return at_least_one(loaded.rating->factors.*by);
+  return at_least_one({.lead = loaded.iso.lead, .profile = not_given, .combined = loaded.iso.combined()});
+}
+
 void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
   of.iso = iso_stress_numbers(model.pair, model.material, loaded.torque, model.face_width, life.rim_thickness);
   of.K_from_contact = loaded.rating.has_value() && !std::isnan(loaded.rating->factors.without_spikes.combined);
-  const double lead = of.K_from_contact ? loaded.rating->factors.without_spikes.lead : loaded.iso.lead;
-  const double combined = of.K_from_contact ? loaded.rating->factors.without_spikes.combined : loaded.iso.combined();
-  // ISO 6336-1: neither factor is below 1. A flank better than the perfect one earns nothing.
-  const auto at_least_one = [](double factor) { return factor < 1.0 ? 1.0 : factor; };  // NaN stays
-  const double K_Hbeta = at_least_one(lead), K_Halpha = at_least_one(combined / K_Hbeta);
-  of.K_H = K_Hbeta * K_Halpha;
-  of.K_F = K_Halpha * root_face_load_factor(model.pair, model.face_width, K_Hbeta);
+  const FaceAndTransverse of_flank = load_factors_of(loaded, of.K_from_contact, &LoadFactors::without_spikes);
+  of.K_H = of_flank.lead * of_flank.profile;
+  // A root bears the load; the stress of the contact also changes with its radius of curvature.
+  const FaceAndTransverse of_root = load_factors_of(loaded, of.K_from_contact, &LoadFactors::line_load);
+  of.K_F = of_root.profile * root_face_load_factor(model.pair, model.face_width, of_root.lead);
   for (const Member m : both_gears) {
     const FatigueStrength& strength = life.strength[m];
     const double cycles = load_cycles(model.pair, m, loaded.operation);

@@ -152,30 +152,41 @@ void note_signal(const Study& study, std::vector<std::string>& notes) {
   }
 }
 
-/// What of a load spectrum loads the other flank, where no scene rates that one.
-void note_reversed_loads(const Study& study, std::vector<std::string>& notes) {
-  if (std::ranges::any_of(study.scenes, [&](const Scene& scene) { return loads_other_flanks(study, scene); })) return;
-  double cycles = 0.0, reversed = 0.0;
+/// What of a load spectrum loads a flank that no scene rates.
+void note_unrated_loads(const Study& study, std::vector<std::string>& notes) {
+  const auto is_other = [&](const Scene& scene) { return loads_other_flanks(study, scene); };
+  const bool rates_other = std::ranges::any_of(study.scenes, is_other), rates_own = !std::ranges::all_of(study.scenes, is_other);
+  double cycles = 0.0, reversed = 0.0, forward = 0.0;
   for (const SpectrumBin& bin : study.spectrum) {
     cycles += bin.cycles;
     if (bin.torque < 0.0) reversed += bin.cycles;
+    if (bin.torque > 0.0) forward += bin.cycles;
   }
-  if (!(reversed > 0.0)) return;
-  notes.push_back(
-      fmt::format("load.spectrum: for {:.3g} % of the {} the torque is below 0 and loads the other flank, which counts as time without load here; a "
-                  "scene with the other working_flank rates that one",
-                  100.0 * reversed / cycles, study.spectrum.front().same_teeth ? "load cycles" : "revolutions"));
+  const auto note = [&](double unrated, const char* side, const char* flank) {
+    notes.push_back(fmt::format(
+        "load.spectrum: for {:.3g} % of the {} the torque is {} 0 and loads {}, which counts as time without load here; a scene with {} rates that one",
+        100.0 * unrated / cycles, study.spectrum.front().same_teeth ? "load cycles" : "revolutions", side, flank,
+        side == std::string_view("below") ? "the other working_flank" : "pair.working_flank"));
+  };
+  if (!rates_other && reversed > 0.0) note(reversed, "below", "the other flank");
+  // Without a torque below 0, scenes of either flank take those above.
+  if (!rates_own && reversed > 0.0 && forward > 0.0) note(forward, "above", "the flank of pair.working_flank");
 }
 
-/// Roots that the unit bends both ways.
+/// Roots that the unit or the load spectrum bends both ways.
 void note_alternating_bending(const Study& study, const GearPair& pair, std::vector<std::string>& notes) {
+  const auto has = [&](bool below) {
+    return std::ranges::any_of(study.spectrum, [&](const SpectrumBin& bin) { return below ? bin.torque < 0.0 : bin.torque > 0.0; });
+  };
+  const bool reverses = has(true) && has(false);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     const bool is_rated = study.life.grade[m] || !std::isnan(study.life.root[m].limit);
-    if (!is_rated || meshes_on_other_flank({study.shaft, study.unit}, pair, m) == 0) continue;
-    notes.push_back(fmt::format(
-        "the {}'s teeth are loaded on both flanks in each revolution: ISO 6336-3 reduces the strength of such roots (Y_M, about 0.7 of an "
-        "idler), which is not done here; a root_endurance_limit of the study can contain it",
-        name_of(m)));
+    const bool in_each_revolution = meshes_on_other_flank({study.shaft, study.unit}, pair, m) != 0;
+    if (!is_rated || !(in_each_revolution || reverses)) continue;
+    notes.push_back(
+        fmt::format("the {}'s teeth are loaded on both flanks {}: ISO 6336-3 reduces the strength of such roots (Y_M, about 0.7 of an "
+                    "idler), which is not done here; a root_endurance_limit of the study can contain it",
+                    name_of(m), in_each_revolution ? "in each revolution" : "over the load spectrum"));
   }
 }
 
@@ -258,6 +269,9 @@ void note_left_out_effects(const Study& study, std::vector<std::string>& notes) 
         fmt::format("fidelity.effects leaves \"{}\" out: what {} of it counts nowhere", effect,
                     scenes.size() == study.scenes.size() ? "the study says" : fmt::format("the scenes \"{}\" say", fmt::join(scenes, "\", \""))));
   }
+  if (is_on(called_for, "shafts") && !is_on(decisions, "shafts")) {
+    notes.push_back("fidelity.effects leaves \"shafts\" out: what the study says of shafts, bearings and a unit counts nowhere");
+  }
 }
 
 }  // namespace
@@ -306,7 +320,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   note_unused_keys(study, notes);
   note_unused_tables(study, notes);
   note_signal(study, notes);
-  note_reversed_loads(study, notes);
+  note_unrated_loads(study, notes);
   note_load_factors(study, notes);
   note_alternating_bending(study, pair, notes);
   if (pair.transverse_contact_ratio < 1.0) {

@@ -33,6 +33,12 @@ std::string unit_note(const StudyResults& results) {
           std::abs(state.mesh_misalignment), loaded.scene, loaded.torque / units::newton_metre, module);
     }
     for (const MeshState& mesh : state.meshes) {
+      if (std::abs(mesh.misalignment) > still_small * module) {
+        return fmt::format(
+            "the unit's shafts misalign {} by {:.3g} mm in scene \"{}\" at {:.6g} N·m, which is no small motion of teeth: a shaft, a bearing or the housing is "
+            "given too soft, or bearings too close",
+            mesh.name, std::abs(mesh.misalignment), loaded.scene, loaded.torque / units::newton_metre);
+      }
       if (!(mesh.face_load_factor > worst)) continue;
       worst = mesh.face_load_factor;
       note = fmt::format(

@@ -75,8 +75,9 @@ std::string load_factors_table(const StudyResults& results, std::size_t width) {
   for (const LoadedResult& loaded : results.loaded) {
     for (const Definition& definition : definitions) {
       const auto k = definition.values(loaded);
-      out += fmt::format("{:<{}}  {:>10.6g}  {:<14}  {:>8.3f}  {:>8.3f}  {:>8.3f}  {:>15.3f}\n", loaded.scene, width, in_Nm(loaded.torque),
-                         definition.label, k[0], k[1], k[2], k[3]);
+      const auto shown = [](double factor) { return std::isnan(factor) ? std::string("-") : fmt::format("{:.3f}", factor); };
+      out += fmt::format("{:<{}}  {:>10.6g}  {:<14}  {:>8}  {:>8}  {:>8}  {:>15}\n", loaded.scene, width, in_Nm(loaded.torque), definition.label,
+                         shown(k[0]), shown(k[1]), shown(k[2]), shown(k[3]));
     }
   }
   return out;

@@ -30,7 +30,7 @@ ShaftBearing& of_joint(StudyBuilder& builder, Member /*member*/) { return joint(
 
 std::vector<SchemaKey> unit_rows() {
   std::vector<SchemaKey> rows{
-      {.path = "unit.reference_torque", .quantity = Quantity::Torque, .range = {.low = 1e-6, .high = 1e9}, .fallback = "(the largest torque of [load])",
+      {.path = "unit.reference_torque", .quantity = Quantity::Torque, .range = {.low = 1e-6, .high = 1e9}, .fallback = "(the largest torque of [load] above 0)",
        .meaning = "on the pinion, at which the loads and torques of the unit are meant; they all scale with the torque",
        .store = [](StudyBuilder& d, Member, const Value& v) { unit(d).reference_torque = v.number; }},
       {.path = "unit.shafts", .kind = TableList, .fallback = "(none)", .meaning = "shafts that carry no gear of the pair; those that do are pinion.shaft and wheel.shaft",

@@ -7,6 +7,7 @@
 
 #include "core/base/findings.hpp"
 #include "core/base/positive_definite.hpp"
+#include "core/base/units.hpp"
 
 namespace flankwright {
 
@@ -102,7 +103,7 @@ std::vector<InvalidInput> find_yielding_problems(const ShaftBearing& bearing) {
     return problems;
   }
   if (bearing.law.given() && std::isfinite(bearing.radial_stiffness)) {
-    problems.emplace_back("radial_stiffness", in_words(bearing.radial_stiffness) + " N/mm",
+    problems.emplace_back("radial_stiffness", in_words(bearing.radial_stiffness * units::um) + " N/um",
                           "none beside a table or a type, which say how the bearing yields");
   }
   return problems;

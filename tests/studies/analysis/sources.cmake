@@ -7,6 +7,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/model_honesty_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/run_study_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/stated_accuracy_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/stress_factors_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_effect_sizes_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_effects_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/tooth_thickness_study_test.cpp
