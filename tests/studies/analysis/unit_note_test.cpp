@@ -17,6 +17,19 @@ TEST_CASE("A unit so soft that its misalignment is no small motion says so, and 
   CHECK(is_said("0.01"));
 }
 
+TEST_CASE("Another stage of a unit whose shafts gape is named", "[studies][analysis][unit]") {
+  const auto is_said = [](const std::string& position) {  // of one bearing of the input shaft, whose other one is at 20 mm
+    const Json results = study_texts::results_of(small::unit_pair() + small::unit(), {{"unit.shafts.0.bearings.1.position", position},
+                                                                                      {"unit.shafts.0.bearings.1.radial_stiffness", "5"},
+                                                                                      {"unit.meshes.0.face_width_1", "20"},
+                                                                                      {"unit.meshes.0.face_width_2", "20"}});
+    return std::ranges::any_of(results.at("notes"),
+                               [](const Json& note) { return note.get<std::string>().find("shafts misalign first by") != std::string::npos; });
+  };
+  CHECK(!is_said("150"));
+  CHECK(is_said("21"));
+}
+
 TEST_CASE("A torque that no tooth bears is said to leave no small deflections", "[studies][analysis]") {
   const auto is_said = [](const std::string& torque) {
     const Json results = study_texts::results_of(small::helical_pair("", "", torque));
