@@ -81,6 +81,18 @@ struct GridSpan {
   Eigen::Index begin, end;
 };
 
+/// The spans of a grid that stations read, by their row. Stations of a tooth lie on a line, which needs a few of the grid's deflections only.
+using GridSpans = std::map<Eigen::Index, GridSpan>;
+
+/// @param rows  of a station: the first of four in a row, for each B-spline along u
+/// @param zetas  of the grid
+void add_station(const std::array<Eigen::Index, 4>& rows, Eigen::Index zetas, GridSpans& spans) {
+  for (const Eigen::Index first : rows) {
+    GridSpan& span = spans.try_emplace(first / zetas, GridSpan{first, first + 4}).first->second;
+    span = {std::min(span.begin, first), std::max(span.end, first + 4)};
+  }
+}
+
 }  // namespace
 
 Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) const {
@@ -90,17 +102,7 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) c
     stations.push_back(local_station(points[i]));
     of_tooth[points[i].tooth].push_back(i);
   }
-  // Points of a tooth lie on a line, which needs a few of the grid's deflections only.
-  const auto spans_of = [&](const std::vector<std::size_t>& of) {
-    std::map<Eigen::Index, GridSpan> spans;  // by their row
-    for (const std::size_t i : of) {
-      for (const Eigen::Index first : stations[i].rows) {
-        GridSpan& span = spans.try_emplace(first / std::ssize(grid_.zetas()), GridSpan{first, first + 4}).first->second;
-        span = {std::min(span.begin, first), std::max(span.end, first + 4)};
-      }
-    }
-    return spans;
-  };
+  const auto zetas = static_cast<Eigen::Index>(grid_.zetas().size());
   Eigen::MatrixXd result(std::ssize(points), std::ssize(points));
   Eigen::VectorXd deflection(grid_.size());
   for (const auto& [loaded, columns] : of_tooth) {
@@ -110,9 +112,14 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) c
         throw InvalidInput("place.tooth", std::to_string(loaded - tooth) + " pitches apart", "at most " + std::to_string(teeth_apart()));
       }
       const Eigen::MatrixXd& table = coefficients_[static_cast<std::size_t>(loaded - tooth)];
-      const std::map<Eigen::Index, GridSpan> spans = spans_of(rows);
+      const bool is_own = tooth == loaded;  // symmetric: of the points up to the force
+      GridSpans spans;
+      for (const std::size_t p : rows) {
+        if (!is_own) add_station(stations[p].rows, zetas, spans);
+      }
       for (const std::size_t q : columns) {
         const LocalStation& force = stations[q];
+        if (is_own) add_station(force.rows, zetas, spans);
         for (const auto& [row, span] : spans) {
           deflection.segment(span.begin, span.end - span.begin).setZero();
           for (int k = 0; k < 4; ++k) {
@@ -123,7 +130,7 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) c
           }
         }
         for (const std::size_t p : rows) {
-          if (tooth == loaded && p > q) break;
+          if (is_own && p > q) break;
           const LocalStation& station = stations[p];
           double value = 0;
           for (int k = 0; k < 4; ++k) {
