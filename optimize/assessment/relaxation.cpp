@@ -92,12 +92,11 @@ std::vector<Relaxation::Limit> exceeded_limits(const DesignTask& task, const Opt
 
 }  // namespace
 
-Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modification>& design, const std::vector<double>& values,
-                           NeighbourGradients neighbours) {
+Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modification>& design, const std::vector<double>& values) {
   DesignProblem by_excess = problem.judged_by_excess();
   const Eigen::VectorXd x = by_excess.scaled_design(values).cwiseMax(0.0).cwiseMin(1.0);
   by_excess.set_start(x);
-  const Optimality optimality = first_order_optimality(by_excess, x, neighbours);
+  const Optimality optimality = first_order_optimality(by_excess, x);
   PerGear<Modification> with_extents = design;
   const std::vector<UnvariedAmount> unvaried = unvaried_amounts(problem.task(), with_extents);
   std::vector<AssessedParameter> parameters = variable_parameters(by_excess.task());

@@ -36,8 +36,6 @@ struct Relaxation {
 /// @param problem  with upper bounds, see has_upper_bounds()
 /// @param design   the one that exceeds them by least; its load distributions converge
 /// @param values   of the design variables [mm; parabolic_te 1/rad]
-/// @param neighbours  of its first-order conditions
-Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modification>& design, const std::vector<double>& values,
-                           NeighbourGradients neighbours = NeighbourGradients::IfNeeded);
+Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modification>& design, const std::vector<double>& values);
 
 }  // namespace flankwright

@@ -26,6 +26,6 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
 
 /// Objectives of an analysis by its resolved cycles, one a scene, in outside units; errors as resolve_report() has them.
 std::vector<ResolvedValue> resolved_values(const DesignProblem& problem, const std::vector<Objective>& objectives, const DesignAnalysis& analysis,
-                                    const std::vector<ResolvedCycle>& cycles);
+                                           const std::vector<ResolvedCycle>& cycles);
 
 }  // namespace flankwright

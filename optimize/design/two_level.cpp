@@ -37,8 +37,8 @@ void join(const DesignResult& coarse, DesignResult& fine) {
   } else if (fine.status == SolverStatus::EvaluationLimit) {
     // The finisher's own limit: the coarse optimum had been found, and the best design that was met from there on is kept.
     fine.status = fine.optimality.satisfied() ? SolverStatus::Converged : SolverStatus::Stalled;
-    fine.message =
-        coarse.message + "; the fine level ended after " + std::to_string(most_fine_analyses) + " analyses with the best design it had met";
+    const std::string ended = "; the fine level ended after " + std::to_string(most_fine_analyses) + " analyses with the best design it had met";
+    fine.message = coarse.message.ends_with(ended) ? coarse.message : coarse.message + ended;
   }
   fine.seconds += coarse.seconds;
   fine.evaluations += coarse.evaluations;
@@ -188,12 +188,13 @@ void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign&
   found.design = std::move(fine);
 }
 
-void confirm(const DesignProblem& problem, DesignReport after, std::optional<DesignReport> exact, TwoLevelDesign& found) {
+void confirm(DesignProblem& problem, DesignProblem finer, DesignReport after, std::optional<DesignReport> exact, TwoLevelDesign& found) {
   DesignResult& design = found.design;
   if (!found.confirmed) {
-    found.confirmed = {.work = found.fine, .objective = exact_of(found).objective, .optimality = design.optimality};
+    found.confirmed = {.work = found.fine, .problem = std::make_shared<const DesignProblem>(std::move(problem)), .design = exact_of(found)};
     found.fine = {.resolution = {}, .cycles = 0, .seconds = 0.0};
   }
+  problem = std::move(finer);
   const int analyses = exact ? 2 : 1;
   found.fine.resolution = problem.task().resolution;
   found.fine.cycles += analyses * problem.scenes();
@@ -206,16 +207,11 @@ void confirm(const DesignProblem& problem, DesignReport after, std::optional<Des
 void complete_confirmed(DesignProblem& problem, TwoLevelDesign& found) {
   if (!found.confirmed) return;
   const Stopwatch clock;
-  DesignResult& design = found.design;
-  const std::int64_t cycles_before = problem.cycles();
-  const int analyses_before = problem.analyses();
-  design.before = report_design(problem, problem.analyse_given());
-  const Eigen::VectorXd x = start_at(problem, exact_of(found));
-  if (design.status != SolverStatus::Infeasible) design.optimality = first_order_optimality(problem, x, NeighbourGradients::Never);
-  design.evaluations += problem.analyses() - analyses_before;
-  found.fine.cycles += problem.cycles() - cycles_before;
+  found.design.before = report_design(problem, problem.analyse_given());
+  ++found.design.evaluations;
+  found.fine.cycles += problem.scenes();
   found.fine.seconds += clock.seconds();
-  design.seconds += clock.seconds();
+  found.design.seconds += clock.seconds();
 }
 
 void choose_what_to_grind(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -15,12 +16,13 @@ struct LevelWork {
   double seconds{not_given};  ///< wall time
 };
 
-/// The end of a search at a resolution whose order of designs a finer look confirmed: is_turned() was false. The design is shown as the finer look sees it.
+/// The end of a search at a resolution whose order of designs a finer look confirmed: is_turned() was false. The design is shown as the finer look sees it. What makes
+/// it an optimum, DesignResult::optimality, is of the search.
 struct ConfirmedSearch {
-  LevelWork work;                    ///< of the finisher at that resolution
-  double objective{not_given};       ///< of the design as the search saw it, at the positions, outside units
-  double objective_seen{not_given};  ///< as the finer look sees it, likewise
-  Optimality optimality;             ///< as the search saw it
+  LevelWork work;                                ///< of the finisher at that resolution
+  std::shared_ptr<const DesignProblem> problem;  ///< that was searched
+  DesignReport design;                           ///< the best design met, before choices and steps, as the search saw it
+  double objective_seen{not_given};              ///< of it, as the finer look sees it, at the positions, outside units
 };
 
 /// A design sought coarsely and finished finely.
@@ -67,12 +69,12 @@ SolverOptions left_of(SolverOptions options, const DesignResult& found);
 /// @param x_found  of the design, scaled
 std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignResult& found, const Eigen::VectorXd& x_found);
 
-/// Shows a design found at a coarser resolution by that of the problem, without a search there.
-/// @param after, exact  DesignResult::after and ::exact by the problem
-void confirm(const DesignProblem& problem, DesignReport after, std::optional<DesignReport> exact, TwoLevelDesign& found);
+/// Shows a design found at a coarser resolution by a finer one, without a search there.
+/// @param problem  that was searched, or shown until now; afterwards the finer one
+/// @param after, exact  DesignResult::after and ::exact by the finer problem
+void confirm(DesignProblem& problem, DesignProblem finer, DesignReport after, std::optional<DesignReport> exact, TwoLevelDesign& found);
 
-/// Sees the given design and the first-order conditions of a confirmed one by the problem too, the latter with the gradients at the design alone. Does nothing where no search
-/// was confirmed.
+/// Shows the given design by the problem too. Does nothing where no search was confirmed.
 void complete_confirmed(DesignProblem& problem, TwoLevelDesign& found);
 
 /// Continues at the fine level from the problem's start by the finisher; the result replaces the design's fine part.

@@ -79,6 +79,11 @@ std::string design_csv(const Json& optimise) {
   }
   csv += "objective," + field(optimise.at("objective_name")) + "," + field(optimise.at("objective_unit")) + "," + field(before.at("objective")) +
          "," + field(after.at("objective")) + ",\n";
+  for (std::size_t k = 1; optimise.contains("stages") && k < optimise.at("stages").size(); ++k) {  // of a list of objectives
+    const Json& stage = optimise.at("stages")[k];
+    csv += "objective," + field(stage.at("objective")) + "," + field(stage.at("unit")) + "," + field(before.at("later_objectives")[k - 1]) + "," +
+           field(after.at("later_objectives")[k - 1]) + ",\n";
+  }
   for (const auto& [name, bound] : before.at("constraints").items()) {
     csv += "constraint," + name + "," + field(bound.at("unit")) + "," + field(bound.at("value")) + "," +
            field(after.at("constraints").at(name).at("value")) + "," + field(bound.at(bound.contains("max") ? "max" : "min")) + "\n";

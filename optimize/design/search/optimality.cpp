@@ -117,7 +117,7 @@ Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objecti
 
 }  // namespace
 
-Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd& x, NeighbourGradients neighbours) {
+Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd& x) {
   DesignLog log(nullptr);
   EpigraphProgram program(problem, log);
   program.add_candidates(x);
@@ -126,7 +126,7 @@ Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd&
   const ProgramValues values = program.evaluate(y, true);
   std::vector<Near> near = near_rows(program, values, y, problem.variables());
   Optimality result = balance(near, values.objective_gradient, problem.variables());
-  if (!result.satisfied() && neighbours == NeighbourGradients::IfNeeded) {
+  if (!result.satisfied()) {
     add_neighbours(program, y, problem.variables(), near);
     if (Optimality on_kink = balance(near, values.objective_gradient, problem.variables()); on_kink.satisfied()) result = std::move(on_kink);
   }

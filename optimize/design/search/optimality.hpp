@@ -47,10 +47,7 @@ struct Optimality {
   bool satisfied() const { return residual <= holds && complementarity <= holds; }
 };
 
-/// Whether conditions that do not hold with the gradients at a design are tried with those at its neighbours too, which takes two analyses a variable.
-enum class NeighbourGradients { IfNeeded, Never };
-
 /// @param x  scaled design
-Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd& x, NeighbourGradients neighbours = NeighbourGradients::IfNeeded);
+Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd& x);
 
 }  // namespace flankwright

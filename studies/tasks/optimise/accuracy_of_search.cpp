@@ -50,8 +50,7 @@ bool OptimiseSearch::is_confirmed(DesignProblem& problem, const Eigen::VectorXd&
   std::vector<int> all(task_.scenes.size());
   std::iota(all.begin(), all.end(), 0);
   if (!is_usable(seen) || !keeps_limits || is_turned(task_, exact_of(found), seen, all, infeasible, *results_.study.fidelity.accuracy)) return false;
-  problem = std::move(finer);
-  confirm(problem, std::move(seen), std::nullopt, found);
+  confirm(problem, std::move(finer), std::move(seen), std::nullopt, found);
   return true;
 }
 
@@ -61,9 +60,11 @@ void OptimiseSearch::show_accurately(DesignProblem& problem, TwoLevelDesign& fou
     if (!needs_finer_resolution(problem, found.design.after)) return;
     DesignTask task = problem.task();  // its limits may be tighter than those of task_
     task.resolution = task_.resolution;
-    problem = DesignProblem(std::move(task));
-    const auto seen = [&](const DesignReport& report) { return report_design(problem, problem.analyse_design(report.analysis.modification)); };
-    confirm(problem, seen(found.design.after), found.design.exact ? std::optional(seen(*found.design.exact)) : std::nullopt, found);
+    DesignProblem finer(std::move(task));
+    const auto seen = [&](const DesignReport& report) { return report_design(finer, finer.analyse_design(report.analysis.modification)); };
+    DesignReport after = seen(found.design.after);
+    std::optional<DesignReport> exact = found.design.exact ? std::optional(seen(*found.design.exact)) : std::nullopt;
+    confirm(problem, std::move(finer), std::move(after), std::move(exact), found);
     found.fine.seconds += clock.seconds();
     found.design.seconds += clock.seconds();
   }

@@ -147,20 +147,21 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   }
   // Rounding to the grinder's steps leaves the optimum.
   if (design.exact) assessment.is_of = design.choices.empty() ? AssessedDesign::BeforeRounding : AssessedDesign::BeforeChoices;
-  const DesignReport& best = design.exact ? *design.exact : design.after;
-  const bool usable = is_usable(best);
+  // What makes the design an optimum is seen as the search saw it.
+  const DesignProblem& searched = found.confirmed ? *found.confirmed->problem : problem;
+  const DesignReport& shown = exact_of(found);
+  const DesignReport& best = found.confirmed ? found.confirmed->design : shown;
+  const bool usable = is_usable(best) && !best.analysis.cycles.empty();
   const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
-  const bool keeps_bounds = problem.violation(best.analysis.modification) <= DesignLog::tolerance;  // else they are what is in the way
-  if (usable && !best.analysis.cycles.empty() && is_infeasible && keeps_bounds && problem.has_upper_bounds()) {
-    assessment.relaxation = find_relaxation(problem, best.analysis.modification, best.variables,
-                                            found.confirmed ? NeighbourGradients::Never : NeighbourGradients::IfNeeded);
-  }
-  if (usable && !best.analysis.cycles.empty() && !is_infeasible) {
-    const DesignProblem last = last_stage(problem, design.stages);
+  const bool keeps_bounds = searched.violation(best.analysis.modification) <= DesignLog::tolerance;  // else they are what is in the way
+  if (usable && is_infeasible && keeps_bounds && searched.has_upper_bounds())
+    assessment.relaxation = find_relaxation(searched, best.analysis.modification, best.variables);
+  if (usable && !is_infeasible) {
+    const DesignProblem last = last_stage(searched, design.stages);
     assessment.optimum = find_optimum(last, design.optimality, best.variables);
     assessment.sensitivities =
         find_sensitivities(last, design.optimality, best.analysis.modification, best.variables, most_tolerance_intervals(study));
-    assessment.optimum->value = best.later_objectives.empty() ? best.objective : best.later_objectives.back();
+    assessment.optimum->value = shown.later_objectives.empty() ? shown.objective : shown.later_objectives.back();
     assessment.judged = last.task();
     assessment.judged->constraints = asked.constraints;
     if (progress) progress("looking for the usual signs", 0, 1, "");

@@ -60,11 +60,8 @@ Json assessment_json(const SearchWork& work) {
             {"objective_seen_by_search", work.objective_seen_by_search},
             {"searches", work.search.resolution.quadrature.intervals == work.fine.resolution.quadrature.intervals ? 1 : 2}};
   if (const std::optional<ConfirmedSearch>& confirmed = work.confirmed) {
-    json["confirmed"] = {{"finished", resolution_json(confirmed->work)},
-                         {"objective", confirmed->objective},
-                         {"objective_seen", confirmed->objective_seen},
-                         {"residual", confirmed->optimality.residual},
-                         {"complementarity", confirmed->optimality.complementarity}};
+    json["confirmed"] = {
+        {"finished", resolution_json(confirmed->work)}, {"objective", confirmed->design.objective}, {"objective_seen", confirmed->objective_seen}};
   }
   return json;
 }

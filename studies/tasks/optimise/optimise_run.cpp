@@ -39,6 +39,7 @@ class OptimiseRun {
     found_.task = search_.task();
     found_.design = found.design;
     found_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.confirmed, found.design.after.objective};
+    if (found_.search_work.confirmed) found_.search_work.confirmed->problem = nullptr;  // its meshes are large
     if (!study.table<OptimiseTable>().pareto_objectives.empty()) {
       const Stopwatch clock;
       problem.set_start({});  // the file's own values again
@@ -114,7 +115,7 @@ class OptimiseRun {
   /// The excess of the design as it is shown, with what lies between the positions, in place of that at the positions.
   void state_shown_excess() {
     double& excess = found_.assessment.relaxation->excess;
-    excess = std::max(excess, search_.excess_of(found_.design.after));
+    if (const double shown = search_.excess_of(found_.design.after); shown > 0.0) excess = shown;  // else a limit of a list of objectives is exceeded
     found_.design.message = message_of_excess(excess);
   }
 

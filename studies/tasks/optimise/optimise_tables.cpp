@@ -109,7 +109,9 @@ std::string excess_of_exact_in_words(const DesignResult& design, const DesignTas
 /// Why rounding to steps lowers the objective, which it should raise; empty where it does not lower it.
 std::string gain_in_words(const DesignResult& design) {
   constexpr double said = 0.01;  // an optimum between steps may gain less by a kink
-  if (!design.choices.empty() || !(design.exact->objective > (1.0 + said) * design.after.objective)) return {};
+  if (design.status == SolverStatus::Infeasible || !design.choices.empty())
+    return {};  // where no design keeps the limits the objective plays no part
+  if (!(design.exact->objective > (1.0 + said) * design.after.objective)) return {};
   return "the design before that has a peak between the mesh positions that the steps avoid\n";
 }
 
@@ -125,9 +127,8 @@ std::string resolution_in_words(const MeshResolution& resolution) {
 }
 
 /// That a design is shown for which the first-order conditions of an optimum do not hold; empty where they do, or where none was looked for.
-std::string doubt_in_words(const DesignResult& design, const std::optional<ConfirmedSearch>& confirmed) {
-  const Optimality& of_search = confirmed ? confirmed->optimality : design.optimality;
-  const double largest = std::max(of_search.residual, of_search.complementarity);
+std::string doubt_in_words(const DesignResult& design) {
+  const double largest = std::max(design.optimality.residual, design.optimality.complementarity);
   if (design.status == SolverStatus::Infeasible || !(largest > Optimality::holds)) return {};
   return fmt::format(
       "The design shown is not proven to be an optimum. Its first-order conditions are off by {:.2g} %, counted in the objective at the start for the "
@@ -138,9 +139,24 @@ std::string doubt_in_words(const DesignResult& design, const std::optional<Confi
 /// That a design was found at a coarser resolution than it is shown by.
 std::string confirmed_in_words(const ConfirmedSearch& confirmed, const MeshResolution& shown, const DesignTask& task) {
   const std::string unit = behind_number(task.objective_unit());
-  return fmt::format("The search ended with {}, by which its optimum has {:.5g}{}. With {} it has {:.5g}{}, and the search did not go on there.\n",
-                     resolution_in_words(confirmed.work.resolution), confirmed.objective, unit, resolution_in_words(shown), confirmed.objective_seen,
-                     unit);
+  return fmt::format(
+      "The search ended with {}. At these positions its optimum has {:.5g}{}, and {:.5g}{} at those of {}: the search did not go on there.\n",
+      resolution_in_words(confirmed.work.resolution), confirmed.design.objective, unit, confirmed.objective_seen, unit, resolution_in_words(shown));
+}
+
+/// Objectives of a list whose limits hold at the mesh positions, and that exceed them between those; empty where none does.
+std::string exceeded_stages_in_words(const DesignResult& design, const DesignTask& task) {
+  constexpr double said = 5e-4;  // a tenth of a per cent when rounded
+  std::string words;
+  for (std::size_t k = 0; k + 1 < design.stages.size(); ++k) {
+    const double shown = k == 0 ? design.after.objective : design.after.later_objectives[k - 1], limit = design.stages[k].limit;
+    if (!(shown > (1.0 + said) * limit)) continue;
+    const std::string unit = behind_number(k == 0 ? task.objective_unit() : task.later_objectives[k - 1].unit());
+    words += fmt::format(
+        "between the mesh positions the {} exceeds its limit of {:.4g}{} by {:.1f} %: limits of a list of objectives are asked for at the positions\n",
+        plain_name(design.stages[k].name), limit, unit, 100.0 * (shown / limit - 1.0));
+  }
+  return words;
 }
 
 /// What is minimised, with the weights of several outputs.
@@ -200,9 +216,10 @@ std::string optimise_summary(const StudyResults& results) {
   }
   out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
-  out += doubt_in_words(design, found.search_work.confirmed);
+  out += doubt_in_words(design);
   for (const std::string& sentence : grinding_choices_in_words(design, task, statistic_of_choices(results))) out += sentence + "\n";
   if (design.exact) out += loss_in_words(design, task) + excess_of_exact_in_words(design, task) + gain_in_words(design);
+  out += exceeded_stages_in_words(design, task);
   const SearchWork& work = found.search_work;
   const auto level = [&](const LevelWork& w) {
     return fmt::format("{} cycles of {}, {:.2g} ms each", w.cycles, resolution_in_words(w.resolution),
