@@ -274,15 +274,16 @@ void ParetoFront::mark_dominated() {
 }
 
 void resolve_front(const DesignProblem& problem, const std::vector<OutputConstraint>& asked, const DesignResolver& resolve,
-                   const std::vector<Eigen::VectorXd>& known, ParetoFront& front) {
+                   const std::vector<Eigen::VectorXd>& known, ParetoFront& front, const FurtherErrorsOf& further_errors_of) {
   DesignProblem valued = with_all(problem, front.objectives);
   const auto shown = [&](ParetoPoint point) {
     const DesignAnalysis& analysis = valued.analyse(point.x, false);
     if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return point;
     const std::vector<ResolvedCycle> cycles = resolve(analysis);
+    const FurtherError further = further_errors_of ? further_errors_of(analysis, cycles) : FurtherError();
     point.values.clear();
     point.errors.clear();
-    for (const ResolvedValue& resolved : resolved_values(valued, front.objectives, analysis, cycles)) {
+    for (const ResolvedValue& resolved : resolved_values(valued, front.objectives, analysis, cycles, further)) {
       point.values.push_back(resolved.value);
       point.errors.push_back(resolved.error);
     }

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "optimize/design/between_positions.hpp"
 #include "optimize/design/design_optimiser.hpp"
+#include "optimize/design/resolved_design.hpp"
 
 namespace flankwright {
 
@@ -66,11 +68,15 @@ inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<O
   return trace_front(problem, objectives, points, DesignOptions{options});
 }
 
+/// FurtherError of a design by its resolved cycles, one a scene.
+using FurtherErrorsOf = std::function<FurtherError(const DesignAnalysis&, const std::vector<ResolvedCycle>&)>;
+
 /// Gives the points of a front their values with the extremes between positions, as the designs before and after an optimisation have them, and judges anew which
 /// are dominated and which exceed a limit. The designs stay where they are, but a known one takes the place of the best of an objective that it is below.
 /// @param asked  the constraints of the task with the limits asked for, by which points are judged; those of the problem may be tighter
 /// @param known  scaled designs, as for trace_front()
+/// @param further_errors_of  nothing: what resolved cycles do not state is not estimated
 void resolve_front(const DesignProblem& problem, const std::vector<OutputConstraint>& asked, const DesignResolver& resolve,
-                   const std::vector<Eigen::VectorXd>& known, ParetoFront& front);
+                   const std::vector<Eigen::VectorXd>& known, ParetoFront& front, const FurtherErrorsOf& further_errors_of = {});
 
 }  // namespace flankwright

@@ -96,10 +96,9 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
 }
 
 std::vector<ResolvedValue> resolved_values(const DesignProblem& problem, const std::vector<Objective>& objectives, const DesignAnalysis& analysis,
-                                           const std::vector<ResolvedCycle>& cycles) {
+                                           const std::vector<ResolvedCycle>& cycles, const FurtherError& further_error) {
   const std::vector<double> weights = problem.scene_weights();
-  const FurtherError none;
-  const Resolving resolving{problem, analysis, cycles, none};
+  const Resolving resolving{problem, analysis, cycles, further_error};
   std::vector<ResolvedValue> values;
   for (const Objective& objective : objectives) values.push_back(value_of(objective, resolving.measures_of(objective), weights));
   return values;

@@ -24,8 +24,8 @@ using FurtherError = std::function<double(const ObjectiveTerm&, int scene)>;
 DesignErrors resolve_report(const DesignProblem& problem, const std::vector<ResolvedCycle>& cycles, DesignReport& report,
                             const FurtherError& further_error = {});
 
-/// Objectives of an analysis by its resolved cycles, one a scene, in outside units; errors as resolve_report() has them.
+/// Objectives of an analysis by its resolved cycles, one a scene, in outside units; errors as resolve_report() has them, with the same further errors.
 std::vector<ResolvedValue> resolved_values(const DesignProblem& problem, const std::vector<Objective>& objectives, const DesignAnalysis& analysis,
-                                           const std::vector<ResolvedCycle>& cycles);
+                                           const std::vector<ResolvedCycle>& cycles, const FurtherError& further_error = {});
 
 }  // namespace flankwright

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
+#include "studies/analysis/case_life.hpp"
+#include "studies/study_file/study_life.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/edge_advice.hpp"
 #include "studies/tasks/optimise/life_error.hpp"
@@ -46,7 +48,9 @@ class OptimiseRun {
       const std::vector<Eigen::VectorXd> known{problem.scaled_design(found_.design.after.variables).cwiseMax(0.0).cwiseMin(1.0)};
       found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, known);
       const auto with_errors = [&](const DesignAnalysis& of) { return search_.resolved_cycles(problem, of, true); };
-      if (seeks_extremes(study)) resolve_front(problem, found_.task.constraints, with_errors, known, *found_.front);
+      if (seeks_extremes(study))
+        resolve_front(problem, found_.task.constraints, with_errors, known, *found_.front,
+                      [&](const auto& of, const auto& cycles) { return life_errors_of(problem, of, cycles); });
       results_.steps.push_back({"front", "compromises of several objectives", clock.seconds()});
     }
     const DesignResult& design = found_.design;
@@ -78,6 +82,26 @@ class OptimiseRun {
   }
 
  private:
+  /// Errors of film, temperatures and their safeties of a design of the front.
+  FurtherError life_errors_of(const DesignProblem& problem, const DesignAnalysis& analysis, const std::vector<ResolvedCycle>& cycles) const {
+    const std::shared_ptr<const LifeModel> model = life_model(results_.study);
+    if (!model) return {};
+    const auto life = std::make_shared<StudyLife>();
+    for (int s = 0; s < problem.scenes(); ++s) {
+      const auto at = static_cast<std::size_t>(s);
+      const DesignScene& scene = problem.task().scenes[at];
+      LoadedResult loaded;
+      loaded.torque = scene.torque;
+      loaded.operation = scene.operation;
+      loaded.cycle = analysis.cycles[at];
+      loaded.resolved = cycles[at];
+      loaded.summary = cycles[at].summary;
+      life->cases.push_back(case_life(problem.model(s), *model, loaded, nullptr));
+      life->cases.back().loaded = at;
+    }
+    return [life](const ObjectiveTerm& term, int scene) { return life_error(*life, static_cast<std::size_t>(scene), term.output); };
+  }
+
   /// What is to be ground is the design over the draws; the listed scenes show it.
   void choose_over_draws(const DesignProblem& problem) {
     const auto load_cases = [&](const std::vector<Scene>& scenes) { return run_.loaded(scenes); };

@@ -239,6 +239,37 @@ TEST_CASE("A front is in the results and has its own table", "[studies][optimise
   CHECK(std::ranges::count(csv->text, '\n') == static_cast<long>(found) + 1);
 }
 
+TEST_CASE("A front of a temperature has errors of it too", "[studies][optimise-keys][life]") {
+  const StudyResults results = run_study(parse_study("task = \"optimise\"\n" + life_pair + R"(
+[load]
+speed = 1000
+torque = 250
+[pinion.modification]
+tip_relief = { amount = 5, height = 2 }
+[wheel.modification]
+tip_relief = { amount = 5, height = 2 }
+[lubricant]
+viscosity_40 = 100
+viscosity_100 = 11
+temperature = 80
+roughness = 0.5
+[optimise]
+objective = "flash_temperature"
+[optimise.variables]
+"pinion.modification.tip_relief.amount" = [0, 20]
+"wheel.modification.tip_relief.amount" = [0, 20]
+[optimise.pareto]
+objectives = ["flash_temperature", "te_peak_to_peak"]
+points = 3
+)",
+                                                     "front.toml", {{"cycle.peaks", "\"refined\""}}));
+  const json points = json::parse(results_json(results))["optimise"]["pareto"]["points"];
+  REQUIRE(points.size() >= 2);
+  for (const json& point : points) {
+    for (const std::size_t k : {0, 1}) CHECK(point["errors"][k] > 0.0);
+  }
+}
+
 TEST_CASE("A front knows the optimum, and its objectives may need what no other part of the study does", "[studies][optimise-keys][life]") {
   const StudyResults results = run_study(parse_study("task = \"optimise\"\n" + life_pair + R"(
 [material]
