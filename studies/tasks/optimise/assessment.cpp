@@ -34,6 +34,11 @@ std::string objective_of(const DesignTask& task) { return task.objective_bounds.
 std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, bool names_torque) {
   const DesignScene& of_task = task.scenes[static_cast<std::size_t>(scene.scene)];
   const std::string torque = names_torque ? fmt::format(", {:.5g} N·m,", of_task.torque / units::newton_metre) : "";
+  if (scene.weight < 0.0) {  // of a mean + k sigma: it lies below the mean
+    return fmt::format(
+        "A larger value in the scene \"{}\"{} would lower the {}, with weight {:.2f}: it would lower the spread more than it raises the mean.",
+        of_task.name, torque, objective_of(task), scene.weight);
+  }
   const std::string of_list = task.objective_bounds.empty() ? "" : fmt::format(" the {}", objective_of(task));
   return fmt::format("The scene \"{}\"{} governs{} with weight {:.2f}.", of_task.name, torque, of_list, scene.weight);
 }

@@ -134,6 +134,22 @@ TEST_CASE("The assessment in results.json is consistent", "[studies][assessment]
   }
 }
 
+TEST_CASE("A scene below the mean of a mean + k sigma does not govern it", "[studies][assessment]") {
+  DesignTask task;
+  task.over = Aggregate::MeanPlusSigmas;
+  for (const char* name : {"worst", "mild"}) {
+    task.scenes.emplace_back();
+    task.scenes.back().name = name;
+    task.scenes.back().torque = 100.0 * units::newton_metre;
+  }
+  Optimum optimum;
+  optimum.scenes = {{0, 1.58}, {1, -0.58}};
+  const std::vector<std::string> words = optimum_in_words(optimum, task);
+  REQUIRE(words.size() == 2);
+  CHECK_THAT(words[0], Catch::Contains("\"worst\"") && Catch::Contains("governs with weight 1.58"));
+  CHECK_THAT(words[1], Catch::Contains("larger value in the scene \"mild\"") && !Catch::Contains("governs"));
+}
+
 TEST_CASE("The same study gives the same assessment", "[studies][assessment][determinism]") {
   json a = results_of(assessed_study())["optimise"], b = results_of(assessed_study())["optimise"];
   remove_seconds(a);
