@@ -94,7 +94,7 @@ std::vector<Relaxation::Limit> exceeded_limits(const DesignTask& task, const Opt
 
 Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modification>& design, const std::vector<double>& values) {
   DesignProblem by_excess = problem.judged_by_excess();
-  const Eigen::VectorXd x = by_excess.scaled_design(values).cwiseMax(0.0).cwiseMin(1.0);
+  const Eigen::VectorXd x = by_excess.nearest_design(values);
   by_excess.set_start(x);
   const Optimality optimality = first_order_optimality(by_excess, x);
   PerGear<Modification> with_extents = design;

@@ -74,7 +74,7 @@ std::string joined(const std::string& a, const std::string& b, const char* betwe
 Eigen::VectorXd nearest_scaled(const DesignProblem& problem, const NamedDesign& design) {
   std::vector<double> values;
   for (const DesignVariable& variable : problem.task().variables) values.push_back(get(design.modification[variable.member], variable.parameter));
-  return problem.scaled_design(values).cwiseMax(0.0).cwiseMin(1.0);
+  return problem.nearest_design(values);
 }
 
 }  // namespace

@@ -93,15 +93,13 @@ std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const D
   for (DesignVariable& variable : task.variables) variable.step = 0.0;
   task.grindable = {};
   DesignProblem limited(std::move(task));
-  limited.set_start(limited.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0));
+  limited.set_start(limited.nearest_design(best.variables));
   DesignOptions options;
   options.to_grind = false;
   options.solver.max_seconds = max_seconds;
   DesignResult result = optimise_by_two_levels(limited, options).design;
-  const std::vector<LoadedCycle>& cycles = result.after.analysis.cycles;
-  const bool usable = std::ranges::all_of(cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   found.is_out_of_time = result.status == SolverStatus::TimeLimit;
-  if (found.is_out_of_time || !usable || limited.violation(result.after.analysis) > DesignLog::tolerance) return found;
+  if (found.is_out_of_time || !result.after.analysis.usable() || limited.violation(result.after.analysis) > DesignLog::tolerance) return found;
   found.price = relative_increase(best.later_objectives.empty() ? best.objective : best.later_objectives.back(), result.after.objective);
   found.design = std::move(result.after);
   return found;

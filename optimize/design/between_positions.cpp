@@ -154,7 +154,7 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
   if (!task.scalarisation.empty() || !task.later_objectives.empty()) return;
   const Account account(problem, found);
   DesignResult& design = found.design;
-  const Eigen::VectorXd x = start_at(problem, exact_of(found));
+  const Eigen::VectorXd x = problem.nearest_design(exact_of(found).variables);
   const std::vector<int> unfelt = unfelt_variables(design.optimality, x);
   if (unfelt.empty()) return;
   const double objective = ProgramBetweenPositions(problem, resolve, x, unfelt).evaluate(x(unfelt), false).objective;
@@ -172,7 +172,7 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
 void keep_limits_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
   if (!problem.task().scalarisation.empty() || !problem.task().later_objectives.empty()) return;
   const Account account(problem, found);
-  const Eigen::VectorXd x = start_at(problem, exact_of(found));
+  const Eigen::VectorXd x = problem.nearest_design(exact_of(found).variables);
   std::vector<int> all(static_cast<std::size_t>(problem.variables()));
   std::iota(all.begin(), all.end(), 0);
   ProgramBetweenPositions program(problem, resolve, x, all);

@@ -103,7 +103,7 @@ FinerLook look_finer(const DesignProblem& problem, const DesignReport& report, b
   task.resolution.quadrature.intervals *= 2;
   const DesignProblem finer(std::move(task));
   const DesignReport seen = report_design(finer, finer.analyse_design(report.analysis.modification));
-  if (!std::ranges::all_of(seen.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return {};
+  if (!seen.analysis.usable()) return {};
   return {.needs_more = is_turned(task_of_search, report, seen, scenes, infeasible, change_by_doubling),
           .excess_changes = excess_changes(task_of_search, report, seen)};
 }

@@ -278,7 +278,7 @@ void resolve_front(const DesignProblem& problem, const std::vector<OutputConstra
   DesignProblem valued = with_all(problem, front.objectives);
   const auto shown = [&](ParetoPoint point) {
     const DesignAnalysis& analysis = valued.analyse(point.x, false);
-    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return point;
+    if (!analysis.usable()) return point;
     const std::vector<ResolvedCycle> cycles = resolve(analysis);
     const FurtherError further = further_errors_of ? further_errors_of(analysis, cycles) : FurtherError();
     point.values.clear();

@@ -62,14 +62,6 @@ void add_first_run(const DesignResult& coarse, std::vector<Eigen::VectorXd>& sta
 
 }  // namespace
 
-bool is_usable(const DesignReport& report) {
-  return std::ranges::all_of(report.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-}
-
-Eigen::VectorXd start_at(const DesignProblem& problem, const DesignReport& report) {
-  return problem.scaled_design(report.variables).cwiseMax(0.0).cwiseMin(1.0);
-}
-
 SolverOptions left_of(SolverOptions options, const DesignResult& found) {
   options.max_evaluations = std::max(1, options.max_evaluations - found.evaluations);
   options.max_seconds = std::max(1e-3, options.max_seconds - found.seconds);
@@ -83,7 +75,7 @@ std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignRes
   double least = INFINITY, least_violation = INFINITY, objective_of_nearest = INFINITY;
   for (const Eigen::VectorXd& x : candidates) {
     const DesignAnalysis& analysis = problem.analyse(x, false);
-    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) continue;
+    if (!analysis.usable()) continue;
     const double objective = problem.objective(analysis), violation = std::max(0.0, problem.violation(analysis) - DesignLog::tolerance);
     if (objective < least) {
       least = objective;
@@ -158,7 +150,7 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
 
   const Stopwatch fine_clock;
   result.design = coarse;
-  std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, start_at(problem, coarse.after));
+  std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, problem.nearest_design(coarse.after.variables));
   add_first_run(coarse, starts);
   result.fine.cycles = problem.cycles() - cycles_before;
   go_on_from_best(problem, options, starts, result);
@@ -217,7 +209,7 @@ void complete_confirmed(DesignProblem& problem, TwoLevelDesign& found) {
 void choose_what_to_grind(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
   const Stopwatch clock;
   DesignProblem last = last_stage(problem, found.design.stages);
-  const Eigen::VectorXd x = start_at(problem, found.design.after);
+  const Eigen::VectorXd x = problem.nearest_design(found.design.after.variables);
   const std::int64_t cycles_before = problem.cycles();
   choose_what_to_grind(problem, last, x, left_of(options.solver, found.design), found.design);
   found.fine.cycles += problem.cycles() - cycles_before;

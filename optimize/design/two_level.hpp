@@ -53,12 +53,6 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
 /// The best design met, before choices and steps.
 inline const DesignReport& exact_of(const TwoLevelDesign& found) { return found.design.exact ? *found.design.exact : found.design.after; }
 
-/// Whether every load case of a design was solved.
-bool is_usable(const DesignReport& report);
-
-/// Where a search goes on from a design, scaled.
-Eigen::VectorXd start_at(const DesignProblem& problem, const DesignReport& report);
-
 /// The budgets that a design found has left of those of its search.
 SolverOptions left_of(SolverOptions options, const DesignResult& found);
 

@@ -162,15 +162,15 @@ void note_unrated_loads(const Study& study, std::vector<std::string>& notes) {
     if (bin.torque < 0.0) reversed += bin.cycles;
     if (bin.torque > 0.0) forward += bin.cycles;
   }
-  const auto note = [&](double unrated, const char* side, const char* flank) {
-    notes.push_back(fmt::format(
-        "load.spectrum: for {:.3g} % of the {} the torque is {} 0 and loads {}, which counts as time without load here; a scene with {} rates that one",
-        100.0 * unrated / cycles, study.spectrum.front().same_teeth ? "load cycles" : "revolutions", side, flank,
-        side == std::string_view("below") ? "the other working_flank" : "pair.working_flank"));
+  const auto note = [&](double unrated, const char* what) {
+    notes.push_back(fmt::format("load.spectrum: for {:.3g} % of the {} the torque is {} rates that one", 100.0 * unrated / cycles,
+                                study.spectrum.front().same_teeth ? "load cycles" : "revolutions", what));
   };
-  if (!rates_other && reversed > 0.0) note(reversed, "below", "the other flank");
+  if (!rates_other && reversed > 0.0)
+    note(reversed, "below 0 and loads the other flank, which counts as time without load here; a scene with the other working_flank");
   // Without a torque below 0, scenes of either flank take those above.
-  if (!rates_own && reversed > 0.0 && forward > 0.0) note(forward, "above", "the flank of pair.working_flank");
+  if (!rates_own && reversed > 0.0 && forward > 0.0)
+    note(forward, "above 0 and loads the flank of pair.working_flank, which counts as time without load here; a scene with that working_flank");
 }
 
 /// Roots that the unit or the load spectrum bends both ways.

@@ -120,6 +120,20 @@ angle = 70
 )";
 }
 
+std::string crowned_pair() {
+  return R"([pair]
+normal_module = 4
+helix_angle = 15
+[pinion]
+teeth = 20
+face_width = 20
+modification.lead_crowning = 6
+[wheel]
+teeth = 40
+face_width = 20
+)";
+}
+
 std::string spur_pair() {
   return R"([pair]
 normal_module = 3

@@ -22,6 +22,9 @@ std::string unit_pair();
 /// The unit around it: an input shaft, and a first stage on the pinion's shaft.
 std::string unit();
 
+/// The tables [pair], [pinion] and [wheel] of a helical pair 20:40, m_n 4, beta 15 deg, b 20, with a lead crowning of 6 um.
+std::string crowned_pair();
+
 /// The tables [pair], [pinion] and [wheel] of a spur pair 25:50, m_n 3, b 20.
 std::string spur_pair();
 

@@ -59,7 +59,7 @@ class StepSearch {
  public:
   StepSearch(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses) : problem_(problem), most_(most_analyses), exact_(x), x_(x) {
     const DesignAnalysis& exact = problem_.analyse(x, false);
-    if (is_usable(exact)) exact_objective_ = problem_.objective(exact);
+    if (exact.usable()) exact_objective_ = problem_.objective(exact);
     stepped_ = stepped_variables(problem);
     for (const int i : stepped_) place(problem_, x_, i, std::round(problem.unscaled(x, i) / variable(i).step));
     first_.resize(static_cast<std::size_t>(problem.scenes()));
@@ -96,7 +96,7 @@ class StepSearch {
     ++analyses_;
     RoundedDesign design{x};
     const DesignAnalysis& analysis = problem_.analyse(x, false);
-    const bool usable = is_usable(analysis);
+    const bool usable = analysis.usable();
     design.objective = usable ? problem_.objective(analysis) : INFINITY;
     design.constraint_violation = usable ? problem_.violation(analysis) : INFINITY;
     design.analyses = analyses_;
@@ -129,10 +129,6 @@ class StepSearch {
     const double violation = std::max(dear_rounding, violation_margin_);
     if (!is_feasible(best_)) return predicted.violation < best_.constraint_violation + violation;
     return predicted.violation <= violation && predicted.objective < best_.objective + std::max(dear_rounding * exact_objective_, objective_margin_);
-  }
-
-  static bool is_usable(const DesignAnalysis& analysis) {
-    return std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   }
 
   bool is_feasible(const RoundedDesign& design) const { return design.constraint_violation <= DesignLog::tolerance; }

@@ -21,6 +21,8 @@ RootStresses root_stresses_for(const DesignTask& task) { return asks_for_root_st
 
 }  // namespace
 
+bool DesignAnalysis::usable() const { return std::ranges::all_of(cycles, &LoadedCycle::usable); }
+
 DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_stresses_(root_stresses_for(task_)) {
   check(task_);
   if (task_.scenes.empty()) throw InvalidInput("scenes", "none", "at least one scene");

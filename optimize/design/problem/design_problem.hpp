@@ -17,6 +17,9 @@ namespace flankwright {
 struct DesignAnalysis {
   PerGear<Modification> modification;
   std::vector<LoadedCycle> cycles;  ///< one per scene
+
+  /// Whether every scene was solved.
+  bool usable() const;
 };
 
 /// A design task ready to be analysed: mesh models built once, scenes analysed in parallel. A copy shares the models and
@@ -68,6 +71,8 @@ class DesignProblem {
   /// The scaled design of a value for each variable [mm; parabolic_te 1/rad], such as DesignReport::variables; outside 0 .. 1 where a value is out
   /// of bounds.
   Eigen::VectorXd scaled_design(const std::vector<double>& values) const;
+  /// The same moved into 0 .. 1.
+  Eigen::VectorXd nearest_design(const std::vector<double>& values) const { return scaled_design(values).cwiseMax(0.0).cwiseMin(1.0); }
   /// Value of variable i [mm; parabolic_te 1/rad].
   double unscaled(const Eigen::VectorXd& x, int i) const;
   /// Modifications of a scaled design.

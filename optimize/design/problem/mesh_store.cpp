@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace flankwright {
 
@@ -20,32 +21,25 @@ std::size_t bytes_of(const MeshModel& mesh) {
   return sizeof(double) * static_cast<std::size_t>(values);
 }
 
-const MeshPosition* position_at(const MeshModel& mesh, double phase) {
-  const auto found = std::ranges::find(mesh.positions, phase, &MeshPosition::phase);
-  return found == mesh.positions.end() ? nullptr : &*found;
-}
-
-/// A mesh at these phases, of positions that either of two meshes has. @param made  null: the other one has all
-MeshModel joined(const std::vector<double>& phases, MeshModel* made, const MeshModel& other) {
-  assert(other.perturbed.empty());
-  MeshModel mesh = made != nullptr ? *made : other;
-  mesh.positions.clear();
-  for (const double phase : phases) {
-    const MeshPosition* known = position_at(other, phase);
-    mesh.positions.push_back(known != nullptr ? *known : *position_at(*made, phase));
-  }
-  return mesh;
+const MeshPosition* position_at(const std::vector<MeshPosition>& positions, double phase) {
+  const auto found = std::ranges::find(positions, phase, &MeshPosition::phase);
+  return found == positions.end() ? nullptr : &*found;
 }
 
 /// The mesh that a key asks for, of which another one has some of the positions.
 MeshModel made_beside(const MeshModel& other, const MeshKey& key, const std::function<MeshModel(const std::vector<double>& phases)>& make) {
+  assert(other.perturbed.empty());
   std::vector<double> unknown;
   for (const double phase : key.resolution.phases) {
-    if (position_at(other, phase) == nullptr) unknown.push_back(phase);
+    if (position_at(other.positions, phase) == nullptr) unknown.push_back(phase);
   }
-  if (unknown.empty()) return joined(key.resolution.phases, nullptr, other);
-  MeshModel made = make(unknown);
-  return joined(key.resolution.phases, &made, other);
+  MeshModel mesh = unknown.empty() ? other : make(unknown);
+  const std::vector<MeshPosition> made = std::exchange(mesh.positions, {});
+  for (const double phase : key.resolution.phases) {
+    const MeshPosition* const known = position_at(other.positions, phase);
+    mesh.positions.push_back(known != nullptr ? *known : *position_at(made, phase));
+  }
+  return mesh;
 }
 
 }  // namespace

@@ -348,7 +348,7 @@ ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double
   const std::optional<DesignProblem> coarse = can_be_coarser(task) ? std::optional<DesignProblem>(screening_task(task)) : std::nullopt;
   const DesignProblem& screening = coarse ? *coarse : full;
   DrawSearch search(full, screening, options, design);
-  design.x = full.scaled_design(start).cwiseMax(0.0).cwiseMin(1.0);
+  design.x = full.nearest_design(start);
   try {
     const bool is_quantile = task.over == Aggregate::Quantile;
     const Aggregation approach = is_quantile ? Aggregation{Aggregate::Cvar, 2.0, task.over.level} : task.over;

@@ -30,11 +30,11 @@ bool OptimiseSearch::needs_finer_resolution(const DesignProblem& problem, const 
 }
 
 void OptimiseSearch::keep_accuracy(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
-  while (results_.fidelity_choice && is_usable(exact_of(found))) {
+  while (results_.fidelity_choice && exact_of(found).analysis.usable()) {
     const Stopwatch clock;
     const double seconds = found.design.seconds;
     if (!needs_finer_resolution(problem, exact_of(found))) return;
-    const Eigen::VectorXd x = start_at(problem, exact_of(found));
+    const Eigen::VectorXd x = problem.nearest_design(exact_of(found).variables);
     if (!is_confirmed(problem, x, found)) go_on_at_resolution(problem, options, x, found);
     found.fine.seconds += clock.seconds();
     found.design.seconds = seconds + clock.seconds();
@@ -49,13 +49,14 @@ bool OptimiseSearch::is_confirmed(DesignProblem& problem, const Eigen::VectorXd&
   const bool keeps_limits = infeasible || finer.violation(seen.analysis) <= DesignLog::tolerance;
   std::vector<int> all(task_.scenes.size());
   std::iota(all.begin(), all.end(), 0);
-  if (!is_usable(seen) || !keeps_limits || is_turned(task_, exact_of(found), seen, all, infeasible, *results_.study.fidelity.accuracy)) return false;
+  if (!seen.analysis.usable() || !keeps_limits || is_turned(task_, exact_of(found), seen, all, infeasible, *results_.study.fidelity.accuracy))
+    return false;
   confirm(problem, std::move(finer), std::move(seen), std::nullopt, found);
   return true;
 }
 
 void OptimiseSearch::show_accurately(DesignProblem& problem, TwoLevelDesign& found) {
-  while (results_.fidelity_choice && is_usable(found.design.after)) {
+  while (results_.fidelity_choice && found.design.after.analysis.usable()) {
     const Stopwatch clock;
     if (!needs_finer_resolution(problem, found.design.after)) return;
     DesignTask task = problem.task();  // its limits may be tighter than those of task_

@@ -156,7 +156,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   const DesignProblem& searched = found.confirmed ? *found.confirmed->problem : problem;
   const DesignReport& shown = exact_of(found);
   const DesignReport& best = found.confirmed ? found.confirmed->design : shown;
-  const bool usable = is_usable(best) && !best.analysis.cycles.empty();
+  const bool usable = best.analysis.usable() && !best.analysis.cycles.empty();
   const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
   const bool keeps_bounds = searched.violation(best.analysis.modification) <= DesignLog::tolerance;  // else they are what is in the way
   if (usable && is_infeasible && keeps_bounds && searched.has_upper_bounds())

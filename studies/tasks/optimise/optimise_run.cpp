@@ -45,7 +45,7 @@ class OptimiseRun {
     if (!study.table<OptimiseTable>().pareto_objectives.empty()) {
       const Stopwatch clock;
       problem.set_start({});  // the file's own values again
-      const std::vector<Eigen::VectorXd> known{problem.scaled_design(found_.design.after.variables).cwiseMax(0.0).cwiseMin(1.0)};
+      const std::vector<Eigen::VectorXd> known{problem.nearest_design(found_.design.after.variables)};
       found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, known);
       const auto with_errors = [&](const DesignAnalysis& of) { return search_.resolved_cycles(problem, of, true); };
       if (seeks_extremes(study))
@@ -130,7 +130,7 @@ class OptimiseRun {
     const OptimiseTable& asked = results_.study.table<OptimiseTable>();
     if (asked.constraints.empty() && asked.modification_constraints.empty()) return;
     const DesignAnalysis start = problem.analyse_given();
-    if (!std::ranges::all_of(start.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return;
+    if (!start.usable()) return;
     for (const std::string& violated : violated_constraints(problem, asked, report_design(problem, start))) {
       spdlog::info("the search starts outside the constraints: {}", violated);
     }

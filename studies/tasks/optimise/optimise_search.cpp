@@ -135,7 +135,7 @@ void OptimiseSearch::take_more_positions(DesignProblem& problem, const DesignOpt
     const DesignReport& best = exact_of(found);
     const bool infeasible = found.design.status == SolverStatus::Infeasible;  // then it is the excess that was searched for
     if (!rises_between_positions(best, shown_between_positions(problem, best), infeasible)) return;
-    const Eigen::VectorXd x = start_at(problem, best);
+    const Eigen::VectorXd x = problem.nearest_design(best.variables);
     const std::optional<DesignReport> ground = infeasible ? std::nullopt : ground_of(problem, options, x, found);
     if (ground && !rises_between_positions(*ground, shown_between_positions(problem, *ground), false)) return;
     run_.set_positions(2 * cycle.positions);
@@ -152,7 +152,7 @@ std::optional<DesignReport> OptimiseSearch::ground_of(DesignProblem& problem, co
   DesignReport ground = report_design(problem, problem.analyse(to_grind.x, false));
   found.design.evaluations += problem.analyses() - analyses + to_grind.choice_analyses;
   found.design.failures += to_grind.failures;
-  return to_grind.is_changed && is_usable(ground) ? std::optional(std::move(ground)) : std::nullopt;
+  return to_grind.is_changed && ground.analysis.usable() ? std::optional(std::move(ground)) : std::nullopt;
 }
 
 std::vector<double> OptimiseSearch::take_more_intervals(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
@@ -160,11 +160,11 @@ std::vector<double> OptimiseSearch::take_more_intervals(DesignProblem& problem, 
     const Stopwatch clock;
     const double seconds = found.design.seconds;
     const DesignReport& best = exact_of(found);
-    if (!is_usable(best)) return {};
+    if (!best.analysis.usable()) return {};
     const bool infeasible = found.design.status == SolverStatus::Infeasible;
     const FinerLook look = look_finer(problem, best, infeasible);
     if (!look.needs_more) return look.excess_changes;
-    const Eigen::VectorXd x = start_at(problem, best);
+    const Eigen::VectorXd x = problem.nearest_design(best.variables);
     if (const std::optional<DesignReport> ground = infeasible ? std::nullopt : ground_of(problem, options, x, found)) {
       const FinerLook of_ground = look_finer(problem, *ground, false);
       if (!of_ground.needs_more) return of_ground.excess_changes;
@@ -191,20 +191,21 @@ void OptimiseSearch::go_on_at_resolution(DesignProblem& problem, const DesignOpt
 
 void OptimiseSearch::take_better_usual_design(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
   const DesignReport& best = found.design.after;
-  if (!is_usable(best) || best.analysis.cycles.empty() || found.design.status == SolverStatus::Infeasible || !problem.task().later_objectives.empty())
+  if (!best.analysis.usable() || best.analysis.cycles.empty() || found.design.status == SolverStatus::Infeasible ||
+      !problem.task().later_objectives.empty())
     return;
   const Stopwatch clock;
   run_.report("looking for the usual signs", 0, 1, "");
   const std::optional<UsualSigns> usual = find_usual_signs(problem, best, left_of(options.solver, found.design).max_seconds);
   if (!usual || !usual->design || !(usual->price < -worth_going_on)) return;
   const double seconds = found.design.seconds;
-  go_on_from_better(problem, options, start_at(problem, *usual->design), found);
+  go_on_from_better(problem, options, problem.nearest_design(usual->design->variables), found);
   found.design.seconds = seconds + clock.seconds();
 }
 
 void OptimiseSearch::take_better_rule(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
   const DesignReport& best = found.design.after;
-  if (!is_usable(best) || best.analysis.cycles.empty() || !problem.task().later_objectives.empty()) return;
+  if (!best.analysis.usable() || best.analysis.cycles.empty() || !problem.task().later_objectives.empty()) return;
   const Stopwatch clock;
   const double seconds = found.design.seconds;
   run_.report("trying rules of thumb", 0, 1, "");
@@ -269,7 +270,7 @@ void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const 
     if (!best || last < best->excess) best = Turn{found, problem.task(), last};
     DesignTask tighter = problem.task();
     if (!spare_limits(tighter.constraints, asked, found.design.after.constraint_values, excesses) || turn == most_turns) break;
-    const Eigen::VectorXd x = start_at(problem, exact_of(found));
+    const Eigen::VectorXd x = problem.nearest_design(exact_of(found).variables);
     problem = DesignProblem(tighter);
     problem.set_start(x);
     go_on(problem, options, found);
@@ -285,7 +286,7 @@ void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const 
 }
 
 bool OptimiseSearch::exceeds_between_positions(const DesignProblem& problem, const TwoLevelDesign& found) {
-  if (task_.constraints.empty() || found.design.status == SolverStatus::Infeasible || !is_usable(found.design.after)) return false;
+  if (task_.constraints.empty() || found.design.status == SolverStatus::Infeasible || !found.design.after.analysis.usable()) return false;
   return excess_of(shown_between_positions(problem, found.design.after)) > results_.study.fidelity.resolution_accuracy;
 }
 

@@ -7,6 +7,7 @@
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
 #include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/tasks/optimise/optimise_tables.hpp"
 
@@ -17,17 +18,7 @@ namespace {
 
 /// Thin slices, so that no finite elements are solved; `fidelity` adds to that.
 Study small_study(const std::string& fidelity, const std::string& more = "", const std::string& task = "") {
-  return parse_study(task + R"([pair]
-normal_module = 4
-helix_angle = 15
-[pinion]
-teeth = 20
-face_width = 20
-modification.lead_crowning = 6
-[wheel]
-teeth = 40
-face_width = 20
-[load]
+  return parse_study(task + small::crowned_pair() + R"([load]
 torque = 150
 [misalignment]
 mesh_misalignment = 5

@@ -6,6 +6,7 @@
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;
@@ -14,17 +15,7 @@ namespace {
 
 /// A pair by thin slices, at two torques.
 StudyResults small_pair(const std::string& fidelity) {
-  return run_study(parse_study(R"([pair]
-normal_module = 4
-helix_angle = 15
-[pinion]
-teeth = 20
-face_width = 20
-modification.lead_crowning = 6
-[wheel]
-teeth = 40
-face_width = 20
-[load]
+  return run_study(parse_study(small::crowned_pair() + R"([load]
 torque = [100, 250]
 [fidelity]
 compliance = "thin_slice"
