@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "optimize/assessment/compared_design.hpp"
 #include "optimize/design/two_level.hpp"
 #include "studies/analysis/study_run.hpp"
 

@@ -140,7 +140,7 @@ std::string doubt_in_words(const DesignResult& design) {
 std::string confirmed_in_words(const ConfirmedSearch& confirmed, const MeshResolution& shown, const DesignTask& task) {
   const std::string unit = behind_number(task.objective_unit());
   return fmt::format(
-      "The search ended with {}. At these positions its optimum has {:.5g}{}, and {:.5g}{} at those of {}: the search did not go on there.\n",
+      "The search ended with {}. With these its optimum has {:.5g}{} at the mesh positions. It has {:.5g}{} there with {}, where the search did not go on.\n",
       resolution_in_words(confirmed.work.resolution), confirmed.design.objective, unit, confirmed.objective_seen, unit, resolution_in_words(shown));
 }
 

@@ -156,7 +156,7 @@ comparison.rules = "off"
   REQUIRE(assessment.optimum);
   CHECK(assessment.optimum->resolution <= 1e-3 * assessment.optimum->value);
   for (const Sensitivity& sensitivity : assessment.sensitivities) CHECK(sensitivity.intervals == ended.quadrature.intervals);
-  CHECK(optimise_summary(found).find("the search did not go on there") != std::string::npos);
+  CHECK(optimise_summary(found).find("where the search did not go on") != std::string::npos);
   const std::string gap = std::string("gap = \"") + to_string(found.study.fidelity.gap) + "\"\n";
   const std::string intervals = "quadrature = { rule = \"graded\", intervals = " + std::to_string(shown.quadrature.intervals) + " }\n";
   const StudyResults finer = optimised_with(gap + intervals, "[cycle]\npositions = " + std::to_string(shown.phases.size()) + "\n");
