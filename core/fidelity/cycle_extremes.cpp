@@ -123,8 +123,7 @@ std::map<int, PairReadings> pair_readings(const MeshPosition& at, const LoadedPo
     pair.load = std::max(pair.load, loaded.peak_load[point]);
     if (loaded.edge_stress.size() > 0) pair.on_edges = std::max(pair.on_edges, loaded.edge_stress[point]);
     pair.further.resize(further.size(), 0.0);
-    for (std::size_t r = 0; r < further.size(); ++r)
-      pair.further[r] = std::fmax(pair.further[r], further[r](at.points[i], loaded.load.line_load[point]));
+    for (std::size_t r = 0; r < further.size(); ++r) pair.further[r] = std::fmax(pair.further[r], further[r](loaded_point(at, loaded, point)));
   }
   return pairs;
 }

@@ -5,12 +5,12 @@
 
 #include "core/rating/contact_peaks.hpp"
 #include "core/load/cycle/cycle_figures.hpp"
+#include "core/load/cycle/loaded_point.hpp"
 
 namespace flankwright {
 
-/// A reading of a contact point under its line load [N/mm], whose largest value over the cycle is sought beside the cycle's own figures, such as a flash temperature;
-/// >= 0, NaN counts as 0.
-using PointReading = std::function<double(const ContactPoint&, double line_load)>;
+/// A reading of a contact point under load, whose largest value over the cycle is sought beside the cycle's own figures, such as a flash temperature; >= 0, NaN counts as 0.
+using PointReading = std::function<double(const LoadedPoint&)>;
 
 struct ExtremeSearch {
   /// Located where no interval between positions looks as if the extreme rose by more than this [-], > 0: of the peak to peak (at least

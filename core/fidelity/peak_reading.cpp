@@ -12,9 +12,7 @@ namespace flankwright {
 PositionReading largest_of_points(PointReading reading) {
   return [reading = std::move(reading)](const MeshPosition& at, const LoadedPosition& loaded) {
     double largest = 0.0;
-    for (std::size_t i = 0; i < at.points.size(); ++i) {
-      largest = std::fmax(largest, reading(at.points[i], loaded.load.line_load[static_cast<Eigen::Index>(i)]));
-    }
+    for (Eigen::Index i = 0; i < loaded.peak_load.size(); ++i) largest = std::fmax(largest, reading(loaded_point(at, loaded, i)));
     return largest;
   };
 }

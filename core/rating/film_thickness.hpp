@@ -1,28 +1,30 @@
 #pragma once
 
+#include "core/load/cycle/loaded_point.hpp"
 #include "core/rating/film_condition.hpp"
 
 namespace flankwright {
 
-/// A local number and its derivative by the line load.
+/// The film at one point, and the derivatives of its ratio.
 struct LocalFilm {
   double ratio{not_given};              ///< lambda_GF, film thickness over Ra [-]; NaN without load or at a standstill
-  double slope{not_given};              ///< by the line load [mm/N]
+  double by_load{not_given};            ///< by the line load at held pressure [mm/N]
+  double by_pressure{not_given};        ///< by the pressure at held load [1/MPa]
   double thickness{not_given};          ///< h [um]
   double flash_temperature{not_given};  ///< theta_fl of the uniform source [K]
 };
 
-/// Specific lubricant film thickness of one point under a line load [ISO/TR 15144-1:2014, now ISO/TS 6336-22, method A],
+/// Specific lubricant film thickness of one point under load [ISO/TR 15144-1:2014, now ISO/TS 6336-22, method A],
 ///
 ///     h      = 1600 rho_n G^0.6 U^0.7 W^-0.13 S^0.22                                              [um, rho_n in mm]
 ///     G      = 1e6 alpha(theta_M) E_r                  U = eta(theta_M) v_Sigma / (2000 E_r rho_n)
 ///     W      = 2 pi p^2 / E_r^2                        S = alpha(theta_B) eta(theta_B) / (alpha(theta_M) eta(theta_M))
 ///     theta_B = theta_M + theta_fl,   theta_fl = sqrt(pi)/2 mu_m 1e6 p |v_g| / (B_M (sqrt(v_r1) + sqrt(v_r2))) sqrt(8 rho_n p/(1000 E_r))
 ///
-/// p is Hertz's pressure of the line load times K_A K_v on the flank, p_dyn of the standard: that on a tip edge, whose radius is another, is no part of it. v_r = omega rho_t of either flank, v_g their
-/// difference, v_Sigma their sum [m/s]. B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. h is Dowson's and Higginson's line contact with the sliding factor S, and
+/// p is the pressure at the point times sqrt(K_A K_v), p_dyn of the standard, and rho_n the radius of the cylinder with this pressure under this load. On the flanks this is their relative radius of
+/// curvature. Departure: the standard leaves tip edges out; here contact on one has the film and the heat of its pressure. v_r = omega rho_t of either flank, v_g their difference, v_Sigma their sum [m/s].
+/// Above 300 deg C, where the standard's expression of alpha nears its zero, the logarithm of alpha eta goes on in a straight line. B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. h is Dowson's and Higginson's line contact with the sliding factor S, and
 /// theta_fl Blok's uniform source over Hertz's width, 1.6 % above the flash temperature of scuffing: see flash_temperature().
-LocalFilm local_film(const GearPair& pair, double contact_modulus, const ContactPoint& point, double line_load, const Lubricant& lubricant,
-                     const FilmCondition& condition);
+LocalFilm local_film(const GearPair& pair, double contact_modulus, const LoadedPoint& at, const Lubricant& lubricant, const FilmCondition& condition);
 
 }  // namespace flankwright

@@ -42,19 +42,20 @@ void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult&
 void add_film_of(const MeshModel& model, const LoadedCycle& cycle, const Lubricant& lubricant, const FilmCondition& condition,
                  std::vector<Eigen::VectorXd>& films, std::vector<Eigen::VectorXd>& flashes, CaseLife& of) {
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
-    const Eigen::VectorXd& load = cycle.positions[i].load.line_load;
-    Eigen::VectorXd &flash = flashes.emplace_back(load.size()), &film = films.emplace_back(load.size());
-    for (Eigen::Index j = 0; j < load.size(); ++j) {
-      const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
-      film[j] = local_film(model.pair, model.contact_modulus, point, load[j], lubricant, condition).ratio;
+    const LoadedPosition& loaded = cycle.positions[i];
+    const Eigen::Index points = loaded.peak_load.size();
+    Eigen::VectorXd &flash = flashes.emplace_back(points), &film = films.emplace_back(points);
+    for (Eigen::Index j = 0; j < points; ++j) {
+      const LoadedPoint at = loaded_point(model.positions[i], loaded, j);
+      film[j] = local_film(model.pair, model.contact_modulus, at, lubricant, condition).ratio;
       of.film = std::fmin(of.film, film[j]);
-      const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, point, load[j], condition);
+      const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, at, condition);
       flash[j] = local.flash;
       if (std::islessequal(local.flash, of.flash_temperature)) continue;
       of.flash_temperature = local.flash;
       of.contact_temperature = local.contact;
-      of.hottest_z = point.z;
-      of.hottest_pinion_radius = point.pinion_radius;
+      of.hottest_z = at.point.z;
+      of.hottest_pinion_radius = at.point.pinion_radius;
     }
   }
 }

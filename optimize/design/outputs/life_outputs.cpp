@@ -67,44 +67,63 @@ Film film_under(double force, const ObjectiveTerm& term, const LoadedScene& scen
 
 Film film_of(const ObjectiveTerm& term, const LoadedScene& scene) { return film_under(scene.cycle.force, term, scene); }
 
-/// A value at one point with its gradient: by the point's line load and, where a parameter moves it, by the force of the mesh, on which mean friction and bulk
-/// temperature depend.
-/// @param value  of a film, under the point's line load
-template <class Value>
-SmoothValue value_at(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, double slope, const Value& value) {
-  SmoothValue found{value(film_of(term, scene)), {}};
+LoadedPoint point_of(const PeakCandidate& candidate, const LoadedScene& scene) {
+  const auto i = static_cast<std::size_t>(candidate.position);
+  return loaded_point(scene.model.positions[i], scene.cycle.positions[i], candidate.other);
+}
+
+/// A value at one point with its gradient: by the point's line load and pressure and, where a parameter moves it, by the force of the mesh, on which mean friction and
+/// bulk temperature depend.
+/// @param local  LocalFilm or LocalTemperature of a film, at the point
+template <class Local, class Number>
+SmoothValue value_at(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, const Local& local, Number which) {
+  const auto here = local(film_of(term, scene));
+  SmoothValue found{here.*which, {}};
   const LoadedCycle& cycle = scene.cycle;
   const LoadedPosition& position = cycle.positions[static_cast<std::size_t>(candidate.position)];
   if (position.line_load_derivative.cols() == 0) return found;
-  found.gradient = slope * position.line_load_derivative.row(candidate.other).transpose();
+  found.gradient =
+      (here.by_load * position.peak_load_derivative.row(candidate.other) + here.by_pressure * position.contact_stress_derivative.row(candidate.other))
+          .transpose();
   if (cycle.force_derivative.size() != found.gradient.size() || cycle.force_derivative.isZero(0.0)) return found;
   const double step = 1e-5 * cycle.force;  // its square and round-off over it are below 1e-9 of powers of the force
-  const double by_force = (value(film_under(cycle.force + step, term, scene)) - value(film_under(cycle.force - step, term, scene))) / (2.0 * step);
+  const double by_force =
+      (local(film_under(cycle.force + step, term, scene)).*which - local(film_under(cycle.force - step, term, scene)).*which) / (2.0 * step);
   found.gradient += by_force * cycle.force_derivative.transpose();
   return found;
 }
 
-LocalTemperature temperature_at(const Film& film, const LoadedScene& scene, std::size_t position, Eigen::Index point) {
-  return local_temperature(scene.model.pair, scene.model.contact_modulus, scene.model.positions[position].points[static_cast<std::size_t>(point)],
-                           scene.cycle.positions[position].load.line_load[point], film.condition);
+LocalTemperature temperature_at(const LoadedPoint& at, const Film& film, const MeshModel& model) {
+  return local_temperature(model.pair, model.contact_modulus, at, film.condition);
 }
 
-/// One temperature of all points.
-CandidateValues temperatures(const ObjectiveTerm& term, const LoadedScene& scene, double LocalTemperature::*which) {
-  const Film film = film_of(term, scene);
+LocalFilm film_at(const LoadedPoint& at, const Film& film, const MeshModel& model) {
+  return local_film(model.pair, model.contact_modulus, at, film.lubricant, film.condition);
+}
+
+/// A number of every point that has it.
+template <class Number>
+CandidateValues of_points(const LoadedScene& scene, const Number& number_at) {
   CandidateValues values;
   for (std::size_t i = 0; i < scene.model.positions.size(); ++i) {
-    const Eigen::Index points = scene.cycle.positions[i].load.line_load.size();
-    for (Eigen::Index j = 0; j < points; ++j) {
-      values.push_back({{static_cast<int>(i), static_cast<int>(j)}, temperature_at(film, scene, i, j).*which});
+    for (Eigen::Index j = 0; j < scene.cycle.positions[i].peak_load.size(); ++j) {
+      const PeakCandidate candidate{static_cast<int>(i), static_cast<int>(j)};
+      const double value = number_at(point_of(candidate, scene));
+      if (!std::isnan(value)) values.push_back({candidate, value});
     }
   }
   return values;
 }
 
+/// One temperature of all points.
+CandidateValues temperatures(const ObjectiveTerm& term, const LoadedScene& scene, double LocalTemperature::*which) {
+  return of_points(scene, [&, film = film_of(term, scene)](const LoadedPoint& at) { return temperature_at(at, film, scene.model).*which; });
+}
+
 SmoothValue temperature_of(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, double LocalTemperature::*which) {
-  const auto at = [&](const Film& film) { return temperature_at(film, scene, static_cast<std::size_t>(candidate.position), candidate.other); };
-  return value_at(term, candidate, scene, at(film_of(term, scene)).slope, [&](const Film& film) { return at(film).*which; });
+  const LoadedPoint at = point_of(candidate, scene);
+  return value_at(
+      term, candidate, scene, [&](const Film& film) { return temperature_at(at, film, scene.model); }, which);
 }
 
 }  // namespace
@@ -156,29 +175,16 @@ SmoothValue loss_factor_of(const ObjectiveTerm&, const PeakCandidate&, const Loa
 }
 
 CandidateValues film_ratios(const ObjectiveTerm& term, const LoadedScene& scene) {
-  const Film film = film_of(term, scene);
-  CandidateValues values;
-  for (std::size_t i = 0; i < scene.model.positions.size(); ++i) {
-    const Eigen::VectorXd& load = scene.cycle.positions[i].load.line_load;
-    for (Eigen::Index j = 0; j < load.size(); ++j) {
-      const ContactPoint& point = scene.model.positions[i].points[static_cast<std::size_t>(j)];
-      const LocalFilm local = local_film(scene.model.pair, scene.model.contact_modulus, point, load[j], film.lubricant, film.condition);
-      if (!std::isnan(local.ratio)) values.push_back({{static_cast<int>(i), static_cast<int>(j)}, local.ratio});
-    }
-  }
-  return values;
+  return of_points(scene, [&, film = film_of(term, scene)](const LoadedPoint& at) { return film_at(at, film, scene.model).ratio; });
 }
 
 SmoothValue film_ratio_of(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
-  const auto i = static_cast<std::size_t>(candidate.position);
   // A point that has lost its load borders on a thick film: 1e-3 N/mm, with which lambda is three times that of 4 N/mm.
   constexpr double least_load = 1e-3;
-  const double load = std::max(least_load, scene.cycle.positions[i].load.line_load[candidate.other]);
-  const ContactPoint& point = scene.model.positions[i].points[static_cast<std::size_t>(candidate.other)];
-  const auto at = [&](const Film& film) {
-    return local_film(scene.model.pair, scene.model.contact_modulus, point, load, film.lubricant, film.condition);
-  };
-  return value_at(term, candidate, scene, at(film_of(term, scene)).slope, [&](const Film& film) { return at(film).ratio; });
+  const LoadedPoint here = point_of(candidate, scene);
+  const LoadedPoint at = here.line_load > least_load ? here : flank_point(here.point, scene.model.contact_modulus, least_load);
+  return value_at(
+      term, candidate, scene, [&](const Film& film) { return film_at(at, film, scene.model); }, &LocalFilm::ratio);
 }
 
 CandidateValues flash_temperatures(const ObjectiveTerm& term, const LoadedScene& scene) {

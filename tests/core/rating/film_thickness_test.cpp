@@ -55,7 +55,7 @@ TEST_CASE("At the pitch point the film is Dowson's and Higginson's line contact"
   const GearPair gears = mesh_cases::pair(20, 60, 0, 5, 40);
   const ContactPoint pitch_point = point_at(gears, 0.0);
   const double load = 400.0;
-  const LocalFilm film = local_film(gears, modulus(), pitch_point, load, film_oil, film_at(1500));
+  const LocalFilm film = local_film(gears, modulus(), flank_point(pitch_point, modulus(), load), film_oil, film_at(1500));
   CHECK(film.flash_temperature == tests::about(0.0, 1e-9));  // nothing slides
   // H = h/R = 1.6 (alpha E')^0.6 (eta u/(E' R))^0.7 (w/(E' R))^-0.13 with E' = 2/(sum (1 - nu^2)/E), u the mean speed [Dowson, Higginson 1966], in SI units.
   const double R = 1e-3 * pitch_point.relative_radius, E = 2.0e6 * modulus(), u = film_at(1500).speed * 1e-3 * gears.pitch_point;
@@ -70,7 +70,7 @@ TEST_CASE("The flash temperature is Blok's uniform source over Hertz's width", "
   const ContactPoint point = point_at(gears, 6.0);
   const double load = 400.0, w = 1e3 * load;  // N/m
   const FilmCondition condition = film_at(1500);
-  const LocalFilm film = local_film(gears, modulus(), point, load, film_oil, condition);
+  const LocalFilm film = local_film(gears, modulus(), flank_point(point, modulus(), load), film_oil, condition);
   const double v1 = condition.speed * 1e-3 * (gears.pitch_point + 6.0),
                v2 = condition.speed / 3.0 * 1e-3 * (gears.path_length - gears.pitch_point - 6.0);
   const double half_width = std::sqrt(4.0 * w * 1e-3 * point.relative_radius / (units::pi * 1e6 * modulus()));
@@ -86,28 +86,66 @@ TEST_CASE("The film has the exponents of its formula and thins with sliding", "[
   constexpr double round_off = 1e-10;
   const GearPair gears = mesh_cases::pair(20, 60, 0, 5, 40);
   const ContactPoint point = point_at(gears, 0.0);
-  const LocalFilm film = local_film(gears, modulus(), point, 300.0, film_oil, film_at(1000));
-  CHECK(local_film(gears, modulus(), point, 600.0, film_oil, film_at(1000)).ratio == Approx(film.ratio * std::pow(2.0, -0.13)).epsilon(round_off));
-  CHECK(local_film(gears, modulus(), point, 300.0, film_oil, film_at(2000)).ratio == Approx(film.ratio * std::pow(2.0, 0.7)).epsilon(round_off));
+  const LocalFilm film = local_film(gears, modulus(), flank_point(point, modulus(), 300.0), film_oil, film_at(1000));
+  CHECK(local_film(gears, modulus(), flank_point(point, modulus(), 600.0), film_oil, film_at(1000)).ratio ==
+        Approx(film.ratio * std::pow(2.0, -0.13)).epsilon(round_off));
+  CHECK(local_film(gears, modulus(), flank_point(point, modulus(), 300.0), film_oil, film_at(2000)).ratio ==
+        Approx(film.ratio * std::pow(2.0, 0.7)).epsilon(round_off));
   FilmCondition frictionless = film_at(1000);
   frictionless.friction = 0.0;
   const ContactPoint sliding = point_at(gears, 7.0);
-  CHECK(local_film(gears, modulus(), sliding, 300.0, film_oil, film_at(1000)).ratio <
-        local_film(gears, modulus(), sliding, 300.0, film_oil, frictionless).ratio);
-  CHECK(std::isnan(local_film(gears, modulus(), point, 0.0, film_oil, film_at(1000)).ratio));
+  CHECK(local_film(gears, modulus(), flank_point(sliding, modulus(), 300.0), film_oil, film_at(1000)).ratio <
+        local_film(gears, modulus(), flank_point(sliding, modulus(), 300.0), film_oil, frictionless).ratio);
+  CHECK(std::isnan(local_film(gears, modulus(), flank_point(point, modulus(), 0.0), film_oil, film_at(1000)).ratio));
 }
 
-TEST_CASE("The derivative of the film by the load is that of central differences", "[core][rating][film]") {
+TEST_CASE("The derivatives of the film are those of central differences, on flanks and on edges", "[core][rating][film]") {
   const GearPair gears = mesh_cases::pair(20, 60, 15, 5, 40);
   for (const double away : {-5.0, 0.0, 4.0, 8.0}) {
     const ContactPoint point = point_at(gears, away);
     for (const double load : {1.0, 80.0, 700.0}) {
-      const double step = 1e-4 * load;
-      const auto ratio = [&](double under) { return local_film(gears, modulus(), point, under, film_oil, film_at(1500)).ratio; };
-      const double difference = (ratio(load + step) - ratio(load - step)) / (2.0 * step);
-      CHECK(local_film(gears, modulus(), point, load, film_oil, film_at(1500)).slope == Approx(difference).epsilon(1e-6));
+      const LoadedPoint flank = flank_point(point, modulus(), load);
+      for (const double sharper : {1.0, 3.0, 8.0}) {
+        const LoadedPoint here{point, load, sharper * flank.pressure};
+        const auto ratio = [&](double by_load, double by_pressure) {
+          return local_film(gears, modulus(), {point, by_load * load, by_pressure * here.pressure}, film_oil, film_at(1500)).ratio;
+        };
+        constexpr double step = 1e-4, discretisation = 1e-6;
+        CAPTURE(away, load, sharper);
+        const LocalFilm film = local_film(gears, modulus(), here, film_oil, film_at(1500));
+        CHECK(film.by_load * load == Approx((ratio(1.0 + step, 1.0) - ratio(1.0 - step, 1.0)) / (2.0 * step)).epsilon(discretisation));
+        CHECK(film.by_pressure * here.pressure == Approx((ratio(1.0, 1.0 + step) - ratio(1.0, 1.0 - step)) / (2.0 * step)).epsilon(discretisation));
+      }
     }
   }
+}
+
+TEST_CASE("On a tip edge the film is that of a sharper roller, and always there", "[core][rating][film]") {
+  const GearPair gears = mesh_cases::pair(20, 60, 0, 5, 40);
+  const ContactPoint flank = point_at(gears, 6.0);
+  ContactPoint roller = flank;
+  roller.relative_radius = 0.4;  // mm, of a rounding
+  const double load = 60.0;
+  const LoadedPoint on_roller = flank_point(roller, modulus(), load), on_edge{flank, load, on_roller.pressure};
+  CHECK(on_edge.radius(modulus()) == Approx(0.4).epsilon(1e-12));
+  const LocalFilm edge = local_film(gears, modulus(), on_edge, film_oil, film_at(1500));
+  CHECK(edge.ratio == Approx(local_film(gears, modulus(), on_roller, film_oil, film_at(1500)).ratio).epsilon(1e-12));  // round-off
+  // h ~ rho^0.43 at the same load and temperature.
+  FilmCondition frictionless = film_at(1500);
+  frictionless.friction = 0.0;
+  const auto cold = [&](const LoadedPoint& at) { return local_film(gears, modulus(), at, film_oil, frictionless).ratio; };
+  CHECK(cold(on_edge) == Approx(cold(flank_point(flank, modulus(), load)) * std::pow(0.4 / flank.relative_radius, 0.43)).epsilon(1e-10));
+  // Heat under which no oil is left thins the film on and on.
+  double before = INFINITY;
+  for (double pressure = 500.0; pressure < 2e5; pressure *= 1.5) {
+    const LocalFilm film = local_film(gears, modulus(), {flank, 400.0, pressure}, film_oil, film_at(6000));
+    CAPTURE(pressure, film.flash_temperature);
+    CHECK(film.ratio > 0.0);
+    CHECK(film.ratio < before);
+    CHECK(film.by_pressure < 0.0);
+    before = film.ratio;
+  }
+  CHECK(local_film(gears, modulus(), {flank, 400.0, 2e5}, film_oil, film_at(6000)).flash_temperature > 500.0);
 }
 
 TEST_CASE("Teeth are warmer than the oil by the loss, and as warm as they are said to be", "[core][rating][film]") {
