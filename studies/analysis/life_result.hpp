@@ -32,9 +32,11 @@ struct CaseLife {
   double film_friction{not_given};                                ///< mu_m of ISO/TS 6336-22, of the temperatures [-]
   double bulk_temperature{not_given};                             ///< of the teeth, of the film [deg C]
   double film{not_given};                                         ///< least lambda_GF [-]
+  double film_of_flanks{not_given};                               ///< least lambda_GF where contact reaches no tip edge [-]
   double micropitting_safety{not_given};                          ///< film over the permissible one [-]
   double flash_temperature{not_given};                            ///< largest theta_fl [K]
   double contact_temperature{not_given};                          ///< theta_Bmax [deg C]
+  double flank_temperature{not_given};                            ///< likewise where contact reaches no tip edge [deg C]
   double hottest_z{not_given}, hottest_pinion_radius{not_given};  ///< where that is [mm]
   double scuffing_safety{not_given};                              ///< S_B [-]
   CaseLifeErrors errors{};                                        ///< of these

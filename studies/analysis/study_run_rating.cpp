@@ -6,6 +6,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
 #include "studies/analysis/edge_contact_note.hpp"
+#include "studies/analysis/film_note.hpp"
 #include "studies/analysis/governing_cases.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
 #include "studies/analysis/study_run.hpp"
@@ -75,7 +76,9 @@ void StudyRun::rate() {
 void StudyRun::rate_life() {
   results_.life_model = life_model(study());
   results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
-  if (results_.life) results_.notes.insert(results_.notes.end(), results_.life->not_summed.begin(), results_.life->not_summed.end());
+  if (!results_.life) return;
+  results_.notes.insert(results_.notes.end(), results_.life->not_summed.begin(), results_.life->not_summed.end());
+  if (const std::string note = film_note(results_); !note.empty()) results_.notes.push_back(note);
 }
 
 std::optional<EdgeContactStart> StudyRun::edge_contact_of(const LoadedResult& loaded, Member gear) {

@@ -7,24 +7,9 @@
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;
+using design_tasks::relieved_spur;
 
 namespace {
-
-/// A spur pair with rounded tips that are not relieved yet; the tip relief of both gears is sought.
-DesignTask relieved_spur() {
-  DesignTask task = design_tasks::spur({0.0});
-  PairData data = task.pair.data;
-  data.pinion.tip_rounding = data.wheel.tip_rounding = 0.2;
-  task.pair = make_gear_pair(data);
-  task.resolution = {{QuadratureRule::Graded, 8}, equally_spaced_phases(16)};
-  task.variables.clear();
-  for (const Member m : {Member::Pinion, Member::Wheel}) {
-    task.modification[m].tip_relief = {0.0, 2.0, ReliefShape::Linear};
-    task.variables.push_back(
-        {std::string(name_of(m)) + ".modification.tip_relief.amount", m, parameter_of("tip_relief.amount"), 0.0, 60 * units::um});
-  }
-  return task;
-}
 
 DesignResolver resolver(const DesignProblem& problem) {
   return [&problem](const DesignAnalysis& analysis) {

@@ -49,6 +49,21 @@ DesignTask spur(const std::vector<double>& misalignments_um) {
   return task;
 }
 
+DesignTask relieved_spur() {
+  DesignTask task = spur({0.0});
+  PairData data = task.pair.data;
+  data.pinion.tip_rounding = data.wheel.tip_rounding = 0.2;
+  task.pair = make_gear_pair(data);
+  task.resolution = {{QuadratureRule::Graded, 8}, equally_spaced_phases(16)};
+  task.variables.clear();
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    task.modification[m].tip_relief = {0.0, 2.0, ReliefShape::Linear};
+    task.variables.push_back(
+        {std::string(name_of(m)) + ".modification.tip_relief.amount", m, parameter_of("tip_relief.amount"), 0.0, 60 * units::um});
+  }
+  return task;
+}
+
 ObjectiveTerm term(Output output, int harmonic, double weight) {
   ObjectiveTerm term{.output = output, .harmonic = harmonic, .weight = weight, .name = {}};
   term.name = term.own_name();

@@ -18,6 +18,9 @@ DesignTask helical(const std::vector<double>& misalignments_um = {0.0, 12.0, -12
 /// pinion.
 DesignTask spur(const std::vector<double>& misalignments_um);
 
+/// A spur pair with rounded tips that are not relieved yet; the tip relief of both gears is sought.
+DesignTask relieved_spur();
+
 /// All outputs that can be minimised, harmonics of order 1 to 3.
 std::vector<ObjectiveTerm> all_outputs();
 

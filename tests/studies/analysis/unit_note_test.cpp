@@ -40,6 +40,28 @@ TEST_CASE("A torque that no tooth bears is said to leave no small deflections", 
   CHECK(is_said("1e7"));
 }
 
+TEST_CASE("A film that is thinnest on a tip edge is shown beside that of the flanks", "[studies][analysis][life]") {
+  const std::string oil =
+      "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n[load]\ntorque = 150\nspeed = 1500\n[fidelity]\ncompliance = \"thin_slice\"\n";
+  const auto relieved_by = [&](const std::string& amount) {
+    const std::string relief = "{ amount = " + amount + ", height = 1 }";
+    return study_texts::results_of(small::spur_pair() + oil, {{"pinion.modification.tip_relief", relief}, {"wheel.modification.tip_relief", relief}});
+  };
+  const auto is_said = [](const Json& results) {
+    return std::ranges::any_of(results.at("notes"), [](const Json& note) {
+      return note.get<std::string>().find("the film is thinnest on a tip edge") != std::string::npos;
+    });
+  };
+  const Json carrying = relieved_by("0"), clear = relieved_by("60");
+  const Json &on_edge = carrying.at("life").at("cases")[0], &on_flank = clear.at("life").at("cases")[0];
+  CHECK(is_said(carrying));
+  CHECK_FALSE(is_said(clear));
+  CHECK(on_edge.at("specific_film_thickness").get<double>() < on_edge.at("film_thickness_of_flanks").get<double>());
+  CHECK(on_edge.at("contact_temperature_degC").get<double>() > on_edge.at("flank_temperature_degC").get<double>());
+  CHECK(on_flank.at("specific_film_thickness") == on_flank.at("film_thickness_of_flanks"));
+  CHECK(on_flank.at("contact_temperature_degC") == on_flank.at("flank_temperature_degC"));
+}
+
 TEST_CASE("A key that acts only beside others is said to be unused without them", "[studies][analysis]") {
   const auto is_said = [](const std::string& study, const std::string& key, const std::string& value) {
     const Json results = study_texts::results_of(study, {{key, value}});
