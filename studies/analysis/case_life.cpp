@@ -49,7 +49,7 @@ void add_film_of(const MeshModel& model, const LoadedCycle& cycle, const Lubrica
       const LoadedPoint at = loaded_point(model.positions[i], loaded, j);
       film[j] = local_film(model.pair, model.contact_modulus, at, lubricant, condition).ratio;
       of.film = std::fmin(of.film, film[j]);
-      const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, at, condition);
+      const LocalTemperature local = local_temperature(model.pair, at, condition);
       flash[j] = local.flash;
       if (std::islessequal(local.flash, of.flash_temperature)) continue;
       of.flash_temperature = local.flash;
