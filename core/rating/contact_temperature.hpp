@@ -22,7 +22,7 @@ enum class HeatSource {
 /// across the inclined lines of a helical gear they are cos(beta_b) times as high, for which theta_fl would be 1/sqrt(cos(beta_b)) times as large.
 /// @param condition  speed, overload and friction, from film_condition(); friction is the mesh's mean one
 /// @return           0 without load or at a standstill
-double flash_temperature(const GearPair& pair, double contact_modulus, const LoadedPoint& at, const FilmCondition& condition, HeatSource source);
+double flash_temperature(const GearPair& pair, const LoadedPoint& at, const FilmCondition& condition, HeatSource source);
 
 /// Temperatures of one point and the derivatives of both.
 struct LocalTemperature {
@@ -33,7 +33,7 @@ struct LocalTemperature {
 };
 
 /// Contact temperature of one point [ISO/TS 6336-20:2017], with the bulk temperature theta_M of the condition.
-LocalTemperature local_temperature(const GearPair& pair, double contact_modulus, const LoadedPoint& at, const FilmCondition& condition);
+LocalTemperature local_temperature(const GearPair& pair, const LoadedPoint& at, const FilmCondition& condition);
 
 /// Safety against scuffing [ISO/TS 6336-20:2017],
 ///

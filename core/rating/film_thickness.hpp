@@ -19,12 +19,13 @@ struct LocalFilm {
 ///     h      = 1600 rho_n G^0.6 U^0.7 W^-0.13 S^0.22                                              [um, rho_n in mm]
 ///     G      = 1e6 alpha(theta_M) E_r                  U = eta(theta_M) v_Sigma / (2000 E_r rho_n)
 ///     W      = 2 pi p^2 / E_r^2                        S = alpha(theta_B) eta(theta_B) / (alpha(theta_M) eta(theta_M))
-///     theta_B = theta_M + theta_fl,   theta_fl = sqrt(pi)/2 mu_m 1e6 p |v_g| / (B_M (sqrt(v_r1) + sqrt(v_r2))) sqrt(8 rho_n p/(1000 E_r))
+///     theta_B = theta_M + theta_fl
 ///
-/// p is the pressure at the point times sqrt(K_A K_v), p_dyn of the standard, and rho_n the radius of the cylinder with this pressure under this load. On the flanks this is their relative radius of
-/// curvature. Departure: the standard leaves tip edges out; here contact on one has the film and the heat of its pressure. v_r = omega rho_t of either flank, v_g their difference, v_Sigma their sum [m/s].
-/// Above 300 deg C, where the standard's expression of alpha nears its zero, the logarithm of alpha eta goes on in a straight line. B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. h is Dowson's and Higginson's line contact with the sliding factor S, and
-/// theta_fl Blok's uniform source over Hertz's width, 1.6 % above the flash temperature of scuffing: see flash_temperature().
+/// p is the largest pressure at the point times sqrt(K_A K_v), p_dyn of the standard, rho_n the relative radius of curvature of the flanks, and v_Sigma the sum of
+/// v_r = omega rho_t of both [m/s]. h is Dowson's and Higginson's line contact with the sliding factor S. theta_fl is flash_temperature() of the uniform source.
+///
+/// Departures: the standard leaves tip edges out, here contact on one has the film of its pressure. Above 300 deg C, where the standard's expression of alpha nears its
+/// zero, the logarithm of alpha eta goes on in a straight line.
 LocalFilm local_film(const GearPair& pair, double contact_modulus, const LoadedPoint& at, const Lubricant& lubricant, const FilmCondition& condition);
 
 }  // namespace flankwright

@@ -49,7 +49,7 @@ void add_film_of(const MeshModel& model, const LoadedCycle& cycle, const Lubrica
       const LoadedPoint at = loaded_point(model.positions[i], loaded, j);
       film[j] = local_film(model.pair, model.contact_modulus, at, lubricant, condition).ratio;
       of.film = std::fmin(of.film, film[j]);
-      const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, at, condition);
+      const LocalTemperature local = local_temperature(model.pair, at, condition);
       if (!(loaded.edge_stress.size() > 0 && loaded.edge_stress[j] > 0.0)) {
         of.film_of_flanks = std::fmin(of.film_of_flanks, film[j]);
         of.flank_temperature = std::fmax(of.flank_temperature, local.contact);

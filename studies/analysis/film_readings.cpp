@@ -9,9 +9,7 @@ std::vector<PointReading> film_readings(const MeshModel& model, const LifeModel&
   const std::optional<FilmCondition> film = film_condition_of(model, life, operation, force);
   if (!film) return {};
   std::vector<PointReading> readings(2);
-  readings[FilmReadings::flash] = [&model, film = *film](const LoadedPoint& at) {
-    return local_temperature(model.pair, model.contact_modulus, at, film).flash;
-  };
+  readings[FilmReadings::flash] = [&model, film = *film](const LoadedPoint& at) { return local_temperature(model.pair, at, film).flash; };
   readings[FilmReadings::thinness] = [&model, &oil = *life.lubricant, film = *film](const LoadedPoint& at) {
     return 1.0 / local_film(model.pair, model.contact_modulus, at, oil, film).ratio;
   };

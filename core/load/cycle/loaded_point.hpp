@@ -13,10 +13,6 @@ struct LoadedPoint {
   const ContactPoint& point;
   double line_load{not_given};  ///< [N/mm], >= 0
   double pressure{not_given};   ///< [MPa], >= 0; that on a tip edge where contact reaches it
-
-  /// Radius of the cylinder whose Hertzian contact has this pressure under this load, w E'/(pi p^2) [mm]: the relative radius of curvature on the flanks, and less on a
-  /// tip edge.
-  double radius(double contact_modulus) const { return line_load * contact_modulus / (units::pi * pressure * pressure); }
 };
 
 /// Point i of a solved position.

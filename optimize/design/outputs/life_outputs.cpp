@@ -94,7 +94,7 @@ SmoothValue value_at(const ObjectiveTerm& term, const PeakCandidate& candidate, 
 }
 
 LocalTemperature temperature_at(const LoadedPoint& at, const Film& film, const MeshModel& model) {
-  return local_temperature(model.pair, model.contact_modulus, at, film.condition);
+  return local_temperature(model.pair, at, film.condition);
 }
 
 LocalFilm film_at(const LoadedPoint& at, const Film& film, const MeshModel& model) {

@@ -210,7 +210,7 @@ TEST_CASE("The largest value of a further reading lies between the positions, an
   const FlankCondition condition = mesh_cases::worked_condition();
   const double torque = torque_for(gears, 120);
   const FilmCondition film{.speed = 300.0, .oil_temperature = 80.0, .bulk_temperature = 100.0, .friction = 0.05, .roughness = 0.4};
-  const PointReading flash = [&](const LoadedPoint& at) { return flash_temperature(gears, 1.1e5, at, film, HeatSource::Hertzian); };
+  const PointReading flash = [&](const LoadedPoint& at) { return flash_temperature(gears, at, film, HeatSource::Hertzian); };
   const MeshAt mesh_at = mesh_of(gears, {QuadratureRule::Graded, 8}), coarse_at = mesh_of(gears, {QuadratureRule::Graded, 4});
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
   const std::vector<double> phases = equally_spaced_phases(32);

@@ -31,7 +31,7 @@ ContactPoint hot_point(double away) {
 }
 
 double flash_at(double away, double load, const FilmCondition& condition, HeatSource source = HeatSource::Hertzian) {
-  return flash_temperature(hot_gears(), hot_modulus, flank_point(hot_point(away), hot_modulus, load), condition, source);
+  return flash_temperature(hot_gears(), flank_point(hot_point(away), hot_modulus, load), condition, source);
 }
 
 /// Largest temperature under a band of width 2b that moves over a half space so fast that heat goes inwards alone, in units of q_m sqrt(2b)/(B sqrt(v)): the
@@ -87,7 +87,7 @@ TEST_CASE("Nothing flashes where nothing slides or nothing is loaded", "[core][r
   CHECK(flash_at(5.0, 0.0, hot_condition(1500)) == 0.0);
   CHECK(flash_at(5.0, 500.0, hot_condition(0.0)) == 0.0);
   CHECK(flash_at(5.0, 500.0, hot_condition(1500, 0.0)) == 0.0);
-  const LocalTemperature unloaded = local_temperature(hot_gears(), hot_modulus, flank_point(hot_point(5.0), hot_modulus, 0.0), hot_condition(1500));
+  const LocalTemperature unloaded = local_temperature(hot_gears(), flank_point(hot_point(5.0), hot_modulus, 0.0), hot_condition(1500));
   CHECK(unloaded.contact == 95.0);
   CHECK(unloaded.by_load == 0.0);
   CHECK(unloaded.by_pressure == 0.0);
@@ -100,7 +100,7 @@ TEST_CASE("The flash temperature has the powers of its formula", "[core][rating]
   CHECK(flash_at(5.0, 600.0, hot_condition(1000)) == Approx(flash * std::pow(2.0, 0.75)).epsilon(round_off));
   CHECK(flash_at(5.0, 300.0, hot_condition(4000)) == Approx(2.0 * flash).epsilon(round_off));
   CHECK(flash_at(5.0, 300.0, hot_condition(1000, 0.15)) == Approx(3.0 * flash).epsilon(round_off));
-  const LocalTemperature local = local_temperature(hot_gears(), hot_modulus, flank_point(hot_point(5.0), hot_modulus, 300.0), hot_condition(1000));
+  const LocalTemperature local = local_temperature(hot_gears(), flank_point(hot_point(5.0), hot_modulus, 300.0), hot_condition(1000));
   CHECK(local.flash == flash);
   CHECK(local.contact == 95.0 + flash);
 }
@@ -111,7 +111,7 @@ TEST_CASE("The derivatives of the contact temperature are those of central diffe
       const ContactPoint point = hot_point(away);
       const double pressure = 4.0 * flank_point(point, hot_modulus, load).pressure, step = 1e-4;  // as on an edge
       const auto at = [&](double by_load, double by_pressure) {
-        return local_temperature(hot_gears(), hot_modulus, {point, by_load * load, by_pressure * pressure}, hot_condition(1500));
+        return local_temperature(hot_gears(), {point, by_load * load, by_pressure * pressure}, hot_condition(1500));
       };
       CHECK(at(1.0, 1.0).by_load * load == Approx((at(1.0 + step, 1.0).contact - at(1.0 - step, 1.0).contact) / (2.0 * step)).epsilon(1e-6));
       CHECK(at(1.0, 1.0).by_pressure * pressure == Approx((at(1.0, 1.0 + step).contact - at(1.0, 1.0 - step).contact) / (2.0 * step)).epsilon(1e-6));
