@@ -100,7 +100,7 @@ std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const D
   DesignResult result = optimise_by_two_levels(limited, options).design;
   found.is_out_of_time = result.status == SolverStatus::TimeLimit;
   if (found.is_out_of_time || !result.after.analysis.usable() || limited.violation(result.after.analysis) > DesignLog::tolerance) return found;
-  found.price = relative_increase(best.later_objectives.empty() ? best.objective : best.later_objectives.back(), result.after.objective);
+  found.price = relative_increase(best.last_objective(), result.after.objective);
   found.design = std::move(result.after);
   return found;
 }

@@ -58,9 +58,12 @@ class ProgramBetweenPositions : public NonlinearProgram {
     report.analysis = problem_.analyse(design(y), false);
     report.constraint_values.resize(task.constraints.size());
     double violation = problem_.violation(report.analysis);
-    resolve_report(problem_, resolve_(report.analysis), report);
+    const std::vector<ResolvedCycle> cycles = resolve_(report.analysis);
+    resolve_report(problem_, cycles, report);
     for (std::size_t c = 0; c < task.constraints.size(); ++c)
       violation = std::max(violation, task.constraints[c].excess(report.constraint_values[c]));
+    for (const ObjectiveBound& bound : task.objective_bounds)
+      violation = std::max(violation, resolved_values(problem_, {bound.objective}, report.analysis, cycles).front().value / bound.limit - 1.0);
     ProgramValues values;
     values.objective = report.objective;
     values.constraints = Eigen::VectorXd::Constant(1, violation - DesignLog::tolerance);
@@ -111,14 +114,17 @@ SolverOptions cobyla(std::size_t variables) {
 }
 
 /// Puts a design in the place of the one that was found, with what can be ground of it.
-void take_design(DesignProblem& problem, const Eigen::VectorXd& x, const SolverOptions& options, const std::string& how, DesignResult& design) {
-  design.after = report_design(problem, problem.analyse(x, false));
-  DesignToGrind to_grind = design_to_grind(problem, x, options);
+/// @param last  last_stage() of the problem
+void take_design(const DesignProblem& problem, DesignProblem& last, const Eigen::VectorXd& x, const SolverOptions& options, const std::string& how,
+                 DesignResult& design) {
+  design.after = report_design(problem, last.analyse(x, false));
+  DesignToGrind to_grind = design_to_grind(last, x, options);
   design.exact.reset();
   if (to_grind.is_changed) {
     design.exact = design.after;
-    design.after = report_design(problem, problem.analyse(to_grind.x, false));
+    design.after = report_design(problem, last.analyse(to_grind.x, false));
   }
+  if (!design.stages.empty()) design.stages.back().least = design.after.last_objective();
   design.choices = std::move(to_grind.choices);
   design.evaluations += to_grind.choice_analyses;  // of copies of the problem
   design.failures += to_grind.failures;
@@ -165,24 +171,25 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
   const SolverResult solved = solve(program, options);
   if (solved.x.size() == 0 || solved.constraint_violation > 0.0 || !(solved.objective < objective * (1.0 - least_gain))) return;
   const std::string of_them = free.size() == 1 ? " variable" : " variables";
-  take_design(problem, program.design(solved.x), options, "along " + std::to_string(free.size()) + of_them + " that no peak at a position felt",
-              design);
+  take_design(problem, problem, program.design(solved.x), options,
+              "along " + std::to_string(free.size()) + of_them + " that no peak at a position felt", design);
 }
 
 void keep_limits_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
-  if (!problem.task().scalarisation.empty() || !problem.task().later_objectives.empty()) return;
-  const Account account(problem, found);
-  const Eigen::VectorXd x = problem.nearest_design(exact_of(found).variables);
-  std::vector<int> all(static_cast<std::size_t>(problem.variables()));
+  if (!problem.task().scalarisation.empty()) return;
+  DesignProblem last = last_stage(problem, found.design.stages);
+  const Account account(last, found);
+  const Eigen::VectorXd x = last.nearest_design(exact_of(found).variables);
+  std::vector<int> all(static_cast<std::size_t>(last.variables()));
   std::iota(all.begin(), all.end(), 0);
-  ProgramBetweenPositions program(problem, resolve, x, all);
+  ProgramBetweenPositions program(last, resolve, x, all);
   const double excess = program.evaluate(x, false).constraints[0];
   const SolverOptions options = cobyla(all.size());
   const SolverResult solved = solve(program, options);
   if (solved.x.size() == 0 || !(solved.constraint_violation < excess)) return;
   const Eigen::VectorXd nearer = program.design(solved.x);
-  take_design(problem, nearer, options, "to keep limits that only peaks there exceed", found.design);
-  found.design.optimality = first_order_optimality(problem, nearer);
+  take_design(problem, last, nearer, options, "to keep limits that only peaks there exceed", found.design);
+  found.design.optimality = first_order_optimality(last, nearer);
 }
 
 }  // namespace flankwright

@@ -27,7 +27,7 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
 
 /// Continues a search over all variables whose design exceeds a limit between the positions and there only: a tip edge that touches for a moment is felt by
 /// none of them, so that no limit at positions is tight enough. The same method; `found` has the better design afterwards, or that of the least excess, with
-/// its own optimality. Does nothing for lists of objectives and scalarised ones.
+/// its own optimality. Of a list of objectives the last is minimised, and the earlier ones have limits too. Does nothing for scalarised ones.
 /// @param problem  with the limits as they are asked for
 void keep_limits_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found);
 

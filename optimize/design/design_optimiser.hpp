@@ -23,6 +23,9 @@ struct DesignReport {
   std::vector<double> modification_values;  ///< per modification constraint [mm]
   std::vector<double> later_objectives;     ///< of a list, after the first, outside units
   DesignAnalysis analysis;
+
+  double objective_of_stage(std::size_t k) const { return k == 0 ? objective : later_objectives[k - 1]; }  ///< of a list, from 0
+  double last_objective() const { return objective_of_stage(later_objectives.size()); }
 };
 
 /// One of a list of objectives.
@@ -66,8 +69,7 @@ struct DesignResult {
   /// That by the choices alone; of a list, of the last objective, which alternatives are judged by; 0 without choices.
   double choice_loss() const {
     if (!exact || choices.empty()) return exact ? 0.0 : not_given;
-    const double last = exact->later_objectives.empty() ? exact->objective : exact->later_objectives.back();
-    return relative_increase(last, choices.back().tried[choices.back().taken].objective);
+    return relative_increase(exact->last_objective(), choices.back().tried[choices.back().taken].objective);
   }
 };
 

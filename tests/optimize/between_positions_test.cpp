@@ -88,6 +88,23 @@ TEST_CASE("A limit that only a peak between the positions exceeds is kept by a s
   const double kept = shown(problem, problem.scaled_design(found.design.after.variables));
   CHECK(kept <= task.constraints[0].maximum * (1.0 + DesignLog::tolerance));
   CHECK_THAT(found.design.message, Catch::Contains("to keep limits"));
+
+  SECTION("so is that of the first of a list of objectives") {
+    DesignTask listed = task;
+    listed.constraints.clear();
+    listed.objective = {design_tasks::term(Output::PeakContactStress)};
+    listed.later_objectives = {{.terms = {design_tasks::term(Output::TePeakToPeak)}}};
+    DesignProblem of_list(listed);
+    TwoLevelDesign later;
+    later.design.status = SolverStatus::Converged;
+    later.design.after = report_design(of_list, of_list.analyse(x, false));
+    const double limit = task.constraints[0].maximum;
+    later.design.stages = {{"peak_contact_stress", limit / 1.01, limit}, {"te_peak_to_peak", later.design.after.last_objective()}};
+    REQUIRE(resolved_objective(of_list, x) > limit);
+    keep_limits_between_positions(of_list, resolver(of_list), later);
+    CHECK(resolved_objective(of_list, of_list.scaled_design(later.design.after.variables)) <= limit * (1.0 + DesignLog::tolerance));
+    CHECK(later.design.stages.back().least == later.design.after.last_objective());
+  }
 }
 
 TEST_CASE("A design whose peaks feel every variable is left as it is", "[optimize][design][between]") {

@@ -286,8 +286,13 @@ void OptimiseSearch::keep_constraints_where_finer(DesignProblem& problem, const 
 }
 
 bool OptimiseSearch::exceeds_between_positions(const DesignProblem& problem, const TwoLevelDesign& found) {
-  if (task_.constraints.empty() || found.design.status == SolverStatus::Infeasible || !found.design.after.analysis.usable()) return false;
-  return excess_of(shown_between_positions(problem, found.design.after)) > results_.study.fidelity.resolution_accuracy;
+  const DesignResult& design = found.design;
+  if (design.status == SolverStatus::Infeasible || !design.after.analysis.usable() || (task_.constraints.empty() && design.stages.empty()))
+    return false;
+  const DesignReport shown = shown_between_positions(problem, design.after);
+  double excess = excess_of(shown);
+  for (std::size_t k = 0; k + 1 < design.stages.size(); ++k) excess = std::max(excess, shown.objective_of_stage(k) / design.stages[k].limit - 1.0);
+  return excess > results_.study.fidelity.resolution_accuracy;
 }
 
 std::vector<double> OptimiseSearch::finer_excesses(const DesignReport& shown, const std::vector<double>& by_intervals) const {

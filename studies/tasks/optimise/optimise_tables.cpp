@@ -149,12 +149,11 @@ std::string exceeded_stages_in_words(const DesignResult& design, const DesignTas
   constexpr double said = 5e-4;  // a tenth of a per cent when rounded
   std::string words;
   for (std::size_t k = 0; k + 1 < design.stages.size(); ++k) {
-    const double shown = k == 0 ? design.after.objective : design.after.later_objectives[k - 1], limit = design.stages[k].limit;
+    const double shown = design.after.objective_of_stage(k), limit = design.stages[k].limit;
     if (!(shown > (1.0 + said) * limit)) continue;
     const std::string unit = behind_number(k == 0 ? task.objective_unit() : task.later_objectives[k - 1].unit());
-    words += fmt::format(
-        "between the mesh positions the {} exceeds its limit of {:.4g}{} by {:.1f} %: limits of a list of objectives are asked for at the positions\n",
-        plain_name(design.stages[k].name), limit, unit, 100.0 * (shown / limit - 1.0));
+    words += fmt::format("between the mesh positions the {} exceeds its limit of {:.4g}{} by {:.1f} %: no better design was found there\n",
+                         plain_name(design.stages[k].name), limit, unit, 100.0 * (shown / limit - 1.0));
   }
   return words;
 }
