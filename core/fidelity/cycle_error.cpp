@@ -56,11 +56,14 @@ std::vector<Sample> evenly_spaced(const std::vector<double>& fine, const std::ve
   return samples;
 }
 
-/// What a point misses at one position, because a kink of the flanks lies between it and the next, it has at the positions around: the peaks of
+/// How far the neighbourhood of a position reaches to either side [base pitches].
+/// @param n  number of positions of the coarse cycle
+double neighbourhood(std::size_t n) { return static_cast<double>(std::max<std::size_t>(1, n / neighbourhoods)) / static_cast<double>(n) + round_off; }
+
+/// Of peaks. What a point misses at one position, because a kink of the flanks lies between it and the next, it has at the positions around: the peaks of
 /// neighbourhoods are compared.
-/// @param n  number of positions of the coarse cycle; samples may be more, between them
-double peak_difference(const std::vector<Sample>& samples, std::size_t n) {
-  const double reach = static_cast<double>(std::max<std::size_t>(1, n / neighbourhoods)) / static_cast<double>(n) + round_off;
+/// @param reach  of these neighbourhoods [base pitches]; 0: every position counts for itself
+double peak_difference(const std::vector<Sample>& samples, double reach) {
   Sample peak{0.0, -infinity, -infinity};
   for (const Sample& sample : samples) peak = {0.0, std::max(peak.fine, sample.fine), std::max(peak.coarse, sample.coarse)};
   double largest = std::abs(peak.fine - peak.coarse);
@@ -130,7 +133,9 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
     }
     return samples;
   };
-  const auto peaks_apart = [&](const auto& reading) { return of_peaks * peak_difference(samples_of(reading), coarse.positions.size()); };
+  const auto peaks_apart = [&](const auto& reading) {
+    return of_peaks * peak_difference(samples_of(reading), neighbourhood(coarse.positions.size()));
+  };
   double low = infinity, high = -infinity;
   for (const Sample& te : samples_of(te_of)) {
     low = std::min(low, te.fine - te.coarse);
@@ -147,10 +152,11 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;
   if (!std::isnan(summary.peak_root_stress) && coarse.positions.front().root_stress.size() > 0) {
     const std::vector<Sample> samples = evenly_spaced(some(root_of), curve(coarse, root_of));
-    errors.peak_root_stress = of_root_stress * peak_difference(samples, coarse.positions.size());
+    errors.peak_root_stress = of_root_stress * peak_difference(samples, neighbourhood(coarse.positions.size()));
   }
   if (!std::isnan(summary.edge_stress)) {
-    errors.edge_stress = peaks_apart(edge_stress_of);
+    // The highest of a few positions that an edge touches at: two resolutions may agree there by chance, and do not beside it.
+    errors.edge_stress = of_peaks * peak_difference(samples_of(edge_stress_of), 0.0);
     errors.tip_edge_share = peaks_apart(edge_share_of);
   }
   // The least gap, which the approach is counted from, is that of a point: order one.
@@ -239,7 +245,7 @@ double mean_error(const std::vector<double>& fine, const std::vector<double>& co
 double peak_error_by_points(const PeakReadings& of) {
   std::vector<Sample> samples = evenly_spaced(every(of.fine, of.fine.size() / of.coarse.size()), of.coarse);
   for (std::size_t i = 0; i < of.between.size(); ++i) samples.push_back({of.between[i], of.fine_between[i], of.coarse_between[i]});
-  return of_peaks * peak_difference(samples, of.coarse.size());
+  return of_peaks * peak_difference(samples, neighbourhood(of.coarse.size()));
 }
 
 double error_beside_finer(double change, double beyond, double stated) {
