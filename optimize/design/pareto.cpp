@@ -60,9 +60,10 @@ class FrontTracing {
   bool is_out_of_budget() const { return front_.evaluations >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds; }
 
   bool is_spent() {
-    const bool spent = is_out_of_budget();
-    if (spent) front_.message = "the budget ended the front after " + std::to_string(front_.points.size()) + " points";
-    return spent;
+    front_.ended_early = is_out_of_budget();
+    if (front_.ended_early)
+      front_.message = "the budget of analyses and seconds ended the front after " + std::to_string(front_.points.size()) + " points";
+    return front_.ended_early;
   }
 
   void count(const LocalRun& run) {

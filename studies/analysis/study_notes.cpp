@@ -86,9 +86,7 @@ void note_natural_twist(const Study& study, const GearPair& pair, Member m, std:
   notes.push_back(std::move(note));
 }
 
-/// A lead so steep that the tool, which touches beside its nominal point there, takes more than ContactShift knows: R f'^2/2.
-void note_steep_lead(const Study& study, const GearPair& pair, Member m, std::vector<std::string>& notes) {
-  const Modification& modification = study.modification[m];
+void note_steep_lead(const Modification& modification, const GearPair& pair, Member m, std::vector<std::string>& notes) {
   if (!modification.process.has_natural_twist() || !has_lead_modification(modification)) return;
   const DeviationFormula lead(only(modification, ModificationClass::Lead), {}, pair.flank_frame(m));
   constexpr int sections = 400;
@@ -289,6 +287,12 @@ std::string backlash_in_words(const GearPair& pair) {
       pair.backlash / units::um, pair.normal_backlash() / units::um, pair.centre_distance, pair.backlash_free_centre_distance, allowances);
 }
 
+std::vector<std::string> steep_lead_notes(const PerGear<Modification>& modification, const GearPair& pair) {
+  std::vector<std::string> notes;
+  for (const Member m : {Member::Pinion, Member::Wheel}) note_steep_lead(modification[m], pair, m, notes);
+  return notes;
+}
+
 std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   std::vector<std::string> notes;
   if (study.fidelity.compliance == ComplianceModel::Rigid && has_torque(study) && !study.task->single_gears) {
@@ -315,8 +319,8 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   if (study.task->add_notes != nullptr) study.task->add_notes(study, notes);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
-    note_steep_lead(study, pair, m, notes);
   }
+  for (std::string& note : steep_lead_notes(study.modification, pair)) notes.push_back(std::move(note));
   note_unused_keys(study, notes);
   note_unused_tables(study, notes);
   note_signal(study, notes);

@@ -29,8 +29,7 @@ DesignResolver resolver(const DesignProblem& problem) {
 }
 
 double resolved_objective(DesignProblem& problem, const Eigen::VectorXd& x) {
-  DesignReport report;
-  report.analysis = problem.analyse(x, false);
+  DesignReport report = report_design(problem, problem.analyse(x, false));
   resolve_report(problem, resolver(problem)(report.analysis), report);
   return report.objective;
 }
@@ -93,7 +92,7 @@ TEST_CASE("A limit that only a peak between the positions exceeds is kept by a s
     DesignTask listed = task;
     listed.constraints.clear();
     listed.objective = {design_tasks::term(Output::PeakContactStress)};
-    listed.later_objectives = {{.terms = {design_tasks::term(Output::TePeakToPeak)}}};
+    listed.later_objectives = {{.terms = {design_tasks::term(Output::TePeakToPeak)}, .over = {}}};
     DesignProblem of_list(listed);
     TwoLevelDesign later;
     later.design.status = SolverStatus::Converged;

@@ -8,6 +8,8 @@
 
 #include "core/base/stopwatch.hpp"
 #include "studies/analysis/case_life.hpp"
+#include "studies/analysis/study_notes.hpp"
+#include "studies/base/plain_names.hpp"
 #include "studies/study_file/study_life.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/tasks/optimise/edge_advice.hpp"
@@ -30,7 +32,8 @@ class OptimiseRun {
   void run() {
     const Study& study = results_.study;
     SolverOptions options = study.table<OptimiseTable>().solver;
-    const std::string unit = study.table<OptimiseTable>().objective.size() == 1 ? study.table<OptimiseTable>().objective.front().unit() : "";
+    const OptimiseTable& asked = study.table<OptimiseTable>();
+    const std::string unit = asked.objective.size() == 1 && asked.later_objectives.empty() ? asked.objective.front().unit() : "";
     options.progress = [&](int analyses, double best) {
       run_.report("optimising", analyses, 0, std::isnan(best) ? "none within the limits so far" : fmt::format("best so far {:.5g} {}", best, unit));
     };
@@ -46,7 +49,9 @@ class OptimiseRun {
       const Stopwatch clock;
       problem.set_start({});  // the file's own values again
       const std::vector<Eigen::VectorXd> known{problem.nearest_design(found_.design.after.variables)};
-      found_.front = trace_front(problem, study.table<OptimiseTable>().pareto_objectives, study.table<OptimiseTable>().pareto_points, choice, known);
+      DesignOptions tracing = choice;
+      tracing.solver.progress = [&](int analyses, double) { run_.report("tracing the front", analyses, 0, ""); };
+      found_.front = trace_front(problem, asked.pareto_objectives, asked.pareto_points, tracing, known);
       const auto with_errors = [&](const DesignAnalysis& of) { return search_.resolved_cycles(problem, of, true); };
       if (seeks_extremes(study))
         resolve_front(problem, found_.task.constraints, with_errors, known, *found_.front,
@@ -77,7 +82,13 @@ class OptimiseRun {
     show_what_is_resolved(problem, first);
     if (found_.assessment.relaxation) state_shown_excess();
     add_unmet_by_design(problem, results_.study.table<OptimiseTable>(), found_.design, results_.requirements);
-    if (found_.scatter) add_unmet_over_draws();
+    if (found_.scatter) {
+      add_unmet_over_draws();
+      note_too_few_draws();
+    }
+    if (found_.front) add_what_the_front_lacks();
+    for (const std::string& note : steep_lead_notes(found_.design.after.analysis.modification, results_.pair))
+      results_.notes.push_back("of the design found, " + note);
     if (const auto advice = edge_advice(study.table<OptimiseTable>(), results_.loaded)) results_.notes.push_back(*advice);
   }
 
@@ -125,6 +136,23 @@ class OptimiseRun {
     results_.requirements.push_back(fmt::format("the search over the draws ended early ({}): {}", to_string(design.status), design.message));
   }
 
+  /// A statistic that hangs on few of the draws, such as those of which a tip edge touches, may be much worse over others.
+  void note_too_few_draws() {
+    constexpr double worth_saying = 0.02;  // of the statistic
+    const PredictedStatistic& predicted = found_.scatter->predicted;
+    const double over_draws = found_.scatter->design.value;
+    if (!(over_draws < predicted.low) || !(predicted.value > (1.0 + worth_saying) * over_draws)) return;
+    const std::string unit = behind_number(found_.task.objective_unit());
+    results_.notes.push_back(fmt::format(
+        "over the {} draws searched the design found has {:.4g}{}, over others {:.4g}{} ({:.4g} to {:.4g}): the search saw too few draws, a larger optimise.scatter.draws finds a better design",
+        found_.scatter->draws.size(), over_draws, unit, predicted.value, unit, predicted.low, predicted.high));
+  }
+
+  void add_what_the_front_lacks() {
+    const ParetoFront& front = *found_.front;
+    if (!front.message.empty()) (front.ended_early ? results_.requirements : results_.notes).push_back(front.message);
+  }
+
   /// Said before the search, which may take long and find that the constraints cannot be kept.
   void announce_violations_of_start(const DesignProblem& problem) const {
     const OptimiseTable& asked = results_.study.table<OptimiseTable>();
@@ -156,17 +184,35 @@ class OptimiseRun {
   /// Puts what the load cases show, and how well it is known, into the reports.
   /// @param first  the load case of the first scene before
   void show_what_is_resolved(const DesignProblem& problem, std::size_t first) {
-    const auto resolve = [&](std::size_t begin, DesignReport& report) {
+    const auto cycles_from = [&](std::size_t begin) {
       std::vector<ResolvedCycle> cycles;
       for (int s = 0; s < problem.scenes(); ++s) cycles.push_back(results_.loaded[begin + static_cast<std::size_t>(s)].resolved);
-      const auto life_error_in = [&](const ObjectiveTerm& term, int scene) {
+      return cycles;
+    };
+    const auto life_errors_from = [&](std::size_t begin) -> FurtherError {
+      return [&, begin](const ObjectiveTerm& term, int scene) {
         return results_.life ? life_error(*results_.life, begin + static_cast<std::size_t>(scene), term.output) : not_given;
       };
-      return resolve_report(problem, cycles, report, life_error_in);
     };
-    found_.before_errors = resolve(first, found_.design.before);
-    found_.after_errors = resolve(first + static_cast<std::size_t>(problem.scenes()), found_.design.after);
+    const std::size_t after = first + static_cast<std::size_t>(problem.scenes());
+    found_.before_errors = resolve_report(problem, cycles_from(first), found_.design.before, life_errors_from(first));
+    found_.after_errors = resolve_report(problem, cycles_from(after), found_.design.after, life_errors_from(after));
+    if (found_.front) show_in_front(problem, cycles_from(after), life_errors_from(after));
     if (found_.design.exact) resolve_report(problem, search_.resolved_cycles(problem, found_.design.exact->analysis, false), *found_.design.exact);
+  }
+
+  /// The design found, where it is a point of the front, has the values and errors of its load cases there too.
+  void show_in_front(const DesignProblem& problem, const std::vector<ResolvedCycle>& cycles, const FurtherError& further_error) {
+    const Eigen::VectorXd x = problem.nearest_design(found_.design.after.variables);
+    for (ParetoPoint& point : found_.front->points) {
+      if (point.x != x || point.errors.empty()) continue;
+      const std::vector<ResolvedValue> shown =
+          resolved_values(problem, found_.front->objectives, found_.design.after.analysis, cycles, further_error);
+      for (std::size_t k = 0; k < shown.size(); ++k) {
+        point.values[k] = shown[k].value;
+        point.errors[k] = shown[k].error;
+      }
+    }
   }
 
   void add_load_cases(const DesignProblem& problem, const std::string& name, const DesignAnalysis& analysis) {

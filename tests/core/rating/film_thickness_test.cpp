@@ -110,10 +110,11 @@ TEST_CASE("The derivatives of the film are those of central differences, on flan
         const auto ratio = [&](double by_load, double by_pressure) {
           return local_film(gears, modulus(), {point, by_load * load, by_pressure * here.pressure}, film_oil, film_at(1500)).ratio;
         };
-        constexpr double step = 1e-4, discretisation = 1e-6;
+        constexpr double step = 1e-4, discretisation = 1e-6, no_sliding = 1e-9;
         CAPTURE(away, load, sharper);
         const LocalFilm film = local_film(gears, modulus(), here, film_oil, film_at(1500));
-        CHECK(film.by_load * load == Approx((ratio(1.0 + step, 1.0) - ratio(1.0 - step, 1.0)) / (2.0 * step)).epsilon(discretisation));
+        CHECK(film.by_load * load ==
+              Approx((ratio(1.0 + step, 1.0) - ratio(1.0 - step, 1.0)) / (2.0 * step)).epsilon(discretisation).margin(no_sliding * film.ratio));
         CHECK(film.by_pressure * here.pressure == Approx((ratio(1.0, 1.0 + step) - ratio(1.0, 1.0 - step)) / (2.0 * step)).epsilon(discretisation));
       }
     }

@@ -391,7 +391,8 @@ TEST_CASE("Loss, film and temperatures carry errors that hold beside a cycle fou
       "[pinion.modification]\nlead_crowning = 5\ntip_relief = { amount = 8, height = 2 }\n[misalignment]\nmesh_misalignment = 6\n";
   const std::string helix = GENERATE("0", "18");
   const auto cases_with = [&](const char* intervals, const char* positions) {
-    const std::vector<Override> resolution{{"pair.helix_angle", helix}, {"fidelity.quadrature.intervals", intervals}, {"cycle.positions", positions}};
+    const std::vector<Override> resolution{
+        {"pair.helix_angle", helix}, {"fidelity.quadrature.intervals", intervals}, {"cycle.positions", positions}, {"cycle.peaks", "\"refined\""}};
     return results_document(run_study(life_study(life_pair + load + shape + oil, resolution))).at("life").at("cases");
   };
   const Json coarse = cases_with("8", "32"), fine = cases_with("32", "128");
