@@ -156,6 +156,7 @@ TEST_CASE("A front keeps its budget and reports it", "[optimize][design][pareto]
   CHECK(front.evaluations <= 10);
   CHECK(front.points.size() < 9);
   CHECK_FALSE(front.message.empty());
+  CHECK(front.ended_early);
   CHECK_THROWS_AS(trace_front(problem, {stress}, 5, options), InvalidInput);
   options.name = "nlopt:crs2_lm";
   CHECK_THROWS_AS(trace_front(problem, {stress, error}, 5, options), InvalidInput);

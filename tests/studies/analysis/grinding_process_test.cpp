@@ -87,6 +87,17 @@ TEST_CASE("A lead too steep for the tool to follow is said, with what it takes m
   CHECK_THAT(notes_of(small::analysis(), {relief("12").back()}), !Contains("of usual size"));
 }
 
+TEST_CASE("The lead of the design found is looked at as that of the design given", "[studies][grinding][optimise]") {
+  const auto notes_after = [](const char* slopes) {
+    std::string all;
+    const Json results = results_of(small::optimisation(), {generated.front(), {"optimise.variables.pinion.modification.lead_slope", slopes}});
+    for (const Json& note : results["notes"]) all += note.get<std::string>() + "\n";
+    return all;
+  };
+  CHECK_THAT(notes_after("[150, 151]"), Contains("of the design found, the pinion's lead has a slope of"));
+  CHECK_THAT(notes_after("[0, 1]"), !Contains("of usual size"));
+}
+
 TEST_CASE("The natural twist is in loads, topography and effects, and off it is in none", "[studies][grinding]") {
   const Json none = results_of(small::analysis()), ground = results_of(small::analysis(), generated);
   const Study study = parse_study(small::analysis(), "study", generated);

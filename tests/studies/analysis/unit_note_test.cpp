@@ -62,6 +62,13 @@ TEST_CASE("A film that is thinnest on a tip edge is shown beside that of the fla
   CHECK(on_flank.at("contact_temperature_degC") == on_flank.at("flank_temperature_degC"));
 }
 
+TEST_CASE("Teeth are not blamed for what soft bearings yield", "[studies][analysis][unit]") {
+  const Json results = study_texts::results_of(small::unit_pair() + small::unit(), {{"pinion.shaft.bearings.0.radial_stiffness", "0.01"}});
+  const double module = results.at("used").at("pair").at("normal_module_mm");
+  REQUIRE(results.at("loaded")[0].at("summary").at("te_mean_um").get<double>() > 1e3 * 0.1 * module);  // as much as would be said of teeth
+  for (const Json& note : results.at("notes")) CHECK(note.get<std::string>().find("no small deflection") == std::string::npos);
+}
+
 TEST_CASE("A key that acts only beside others is said to be unused without them", "[studies][analysis]") {
   const auto is_said = [](const std::string& study, const std::string& key, const std::string& value) {
     const Json results = study_texts::results_of(study, {{key, value}});
