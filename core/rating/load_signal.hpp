@@ -29,9 +29,9 @@ struct LoadLevel {
   double speed{not_given};     ///< of time at level: mean over its revolutions, so that slow parts count by the load cycles that they bring [rad/s]
 };
 
-/// A signal as load levels.
+/// A signal as load levels of the working flank.
 struct LoadCount {
-  std::vector<LoadLevel> levels;  ///< of rising torque, none without cycles
+  std::vector<LoadLevel> levels;  ///< of rising torque, none without cycles; empty where nothing loads this flank
   double idle_duration{0.0};      ///< torque at or below 0: without load on the working flank [s]
   double idle_revolutions{0.0};   ///< of the pinion in that time [-]
   double reversed_duration{0.0};  ///< the part of it below 0 [s]
@@ -41,7 +41,7 @@ struct LoadCount {
 /// Time and revolutions at equal ranges of torque between the smallest (at least 0) and the largest of the signal. Durations and revolutions of all parts add up to
 /// those of the signal. In each line torque and speed change evenly; where the pinion turns back on the way it stands for a moment.
 /// @param ranges  >= 1
-/// @throws InvalidInput as validate(); "speed" where there is none, "torque" where it is never above 0 while the pinion turns
+/// @throws InvalidInput as validate(); "speed" where there is none
 LoadCount count_time_at_level(const LoadSignal& signal, int ranges);
 
 /// Cycles of the torque by repeating_rainflow(), in equal ranges of the torque from 0 that does as much damage as a cycle from T_min to T_max,
@@ -49,7 +49,7 @@ LoadCount count_time_at_level(const LoadSignal& signal, int ranges);
 ///     T = sqrt(T_max (T_max - T_min))
 ///
 /// [Smith, Watson and Topper 1970, of stress that is in proportion to torque]. Torque below 0 loads the other flank and counts as 0.
-/// @throws InvalidInput as validate(); "torque" where it does not change above 0
+/// @throws InvalidInput as validate()
 LoadCount count_rainflow(const LoadSignal& signal, int ranges);
 
 }  // namespace flankwright

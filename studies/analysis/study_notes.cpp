@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/compliance/shaft/unit_statics.hpp"
+#include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/base/units.hpp"
 #include "core/flank/natural_twist.hpp"
 #include "studies/analysis/study_effects.hpp"
@@ -15,6 +16,15 @@
 namespace flankwright::studies {
 
 namespace {
+
+/// Slices that are not those of the standard.
+void note_uncalibrated_slices(const Study& study, const GearPair& pair, std::vector<std::string>& notes) {
+  if (study.fidelity.compliance != ComplianceModel::ThinSlice || study.task->single_gears || !has_torque(study)) return;
+  if (ThinSlice(pair, study.material.pinion, study.material.wheel).status() == ThinSliceStatus::Calibrated) return;
+  notes.emplace_back(
+      "at these flanks the Hertzian contact alone yields more than teeth and contact together by ISO 6336-1: the thin slices cannot be calibrated to the standard, "
+      "and the bending of the teeth is used as computed; fidelity.compliance = \"fitted\" or \"fe\" needs no calibration");
+}
 
 /// Crowning counts over the active part of the profile: a note where that is empty, or little of the dedendum.
 void note_crowning(const Modification& given, const Gear& gear, std::vector<std::string>& notes) {
@@ -321,6 +331,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
   }
   for (std::string& note : steep_lead_notes(study.modification, pair)) notes.push_back(std::move(note));
+  note_uncalibrated_slices(study, pair, notes);
   note_unused_keys(study, notes);
   note_unused_tables(study, notes);
   note_signal(study, notes);

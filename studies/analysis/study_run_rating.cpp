@@ -124,6 +124,7 @@ void StudyRun::note_large_motions() {
   for (const std::string& note : {unit_note(results_), deflection_note(results_)}) {
     if (!note.empty()) results_.notes.push_back(note);
   }
+  for (const std::string& note : idle_bearing_notes(results_)) results_.notes.push_back(note);
 }
 
 void StudyRun::size_effects() {

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/rating/shaft_misalignment.hpp"
 
@@ -48,6 +50,39 @@ std::string unit_note(const StudyResults& results) {
     }
   }
   return note;
+}
+
+std::vector<std::string> idle_bearing_notes(const StudyResults& results) {
+  if (!results.shafts || !results.shafts->depends_on_load()) return {};
+  struct Idle {
+    BearingState bearing;
+    std::vector<std::pair<std::string, double>> cases;  // scene and torque; both designs of an optimisation have the same
+  };
+  std::vector<Idle> all;
+  for (const LoadedResult& loaded : results.loaded) {
+    const MeshModel& model = results.models[loaded.model];
+    for (const BearingState& bearing : shafts_under(*results.shafts, model, loaded.torque).state(loaded.torque, model.axial_offset).bearings) {
+      if (bearing.carries) continue;
+      auto idle = std::ranges::find_if(all, [&](const Idle& of) { return of.bearing.name == bearing.name && of.bearing.shaft == bearing.shaft; });
+      if (idle == all.end()) idle = all.insert(all.end(), {bearing, {}});
+      const std::pair of_case(loaded.scene, loaded.torque);
+      if (std::ranges::find(idle->cases, of_case) == idle->cases.end()) idle->cases.push_back(of_case);
+    }
+  }
+  std::vector<std::string> notes;
+  for (const auto& [bearing, cases] : all) {
+    const std::size_t further = cases.size() - 1;
+    const std::string others = further == 0 ? "" : fmt::format(" and in {} further load case{}", further, further == 1 ? "" : "s");
+    const std::string why = bearing.radial_clearance > 0.0
+                                ? fmt::format(
+                                      "the shaft floats in its clearance of {:.4g} um there, where small forces that the study leaves out, such as "
+                                      "its weight, can move it",
+                                      bearing.radial_clearance / units::um)
+                                : "without load it has no stiffness and does not hold the shaft";
+    notes.push_back(fmt::format("bearing \"{}\" of the shaft \"{}\" carries nothing in scene \"{}\" at {:.6g} N·m{}: {}", bearing.name, bearing.shaft,
+                                cases.front().first, cases.front().second / units::newton_metre, others, why));
+  }
+  return notes;
 }
 
 }  // namespace flankwright::studies

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "studies/study_file/signal_file.hpp"
 #include "studies/study_file/sweep_value.hpp"
@@ -60,16 +61,6 @@ LoadCount count(const LoadSignal& signal, const SpectrumSource& source) {
   return source.counting == LoadCounting::TimeAtLevel ? count_time_at_level(signal, source.bins) : count_rainflow(signal, source.bins);
 }
 
-/// The loads of the other flank; nothing where it has none.
-std::optional<LoadCount> count_reversed(LoadSignal signal, const SpectrumSource& source) {
-  for (double& torque : signal.torque) torque = -torque;
-  try {
-    return count(signal, source);
-  } catch (const InvalidInput&) {  // never loaded while it turns, or without a swing
-    return std::nullopt;
-  }
-}
-
 /// A bin beyond the range of the keys that would give it.
 std::optional<InvalidInput> find_problem(const std::vector<SpectrumBin>& bins) {
   static const KeyIndex keys = element_keys("load.spectrum");
@@ -108,7 +99,13 @@ void read_signal(StudyReading& reading, const std::string& path) {
   counted.largest_torque = largest;
   try {
     counted.count = count(signal, source);
-    counted.reversed = count_reversed(signal, source);
+    for (double& torque : signal.torque) torque = -torque;
+    if (LoadCount reversed = count(signal, source); !reversed.levels.empty()) counted.reversed = std::move(reversed);
+    if (counted.count.levels.empty() && !counted.reversed) {
+      const bool is_rainflow = source.counting == LoadCounting::Rainflow;
+      throw InvalidInput("torque", is_rainflow ? "without a swing" : "always 0 while the pinion turns",
+                         is_rainflow ? "one that changes" : "one that loads a flank while the pinion turns");
+    }
   } catch (const InvalidInput& problem) {
     return reading.refuse_key(signal_path, path + ": " + problem.field() + " is " + problem.value() + ", allowed is " + problem.allowed());
   }

@@ -30,12 +30,16 @@ void check_sections(const ShaftData& shaft, Findings& findings) {
 void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
   bool holds_axially = false, holds_tilt = false;
   std::vector<double> positions;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < shaft.bearings.size(); ++i) {
     const ShaftBearing& bearing = shaft.bearings[i];
     const std::string name = element("bearings", i);
     findings.require(bearing.position >= 0.0 && bearing.position <= shaft.length(), name + "position", bearing.position,
                      "on the shaft, 0 .. " + std::to_string(shaft.length()) + " mm");
     findings.require(std::ranges::find(positions, bearing.position) == positions.end(), name + "position", bearing.position, "a position of its own");
+    findings.require(std::ranges::find(names, bearing.name) == names.end(), name + "name", bearing.name,
+                     "a name of its own: another bearing of this shaft has this one");
+    if (!bearing.name.empty()) names.push_back(bearing.name);
     findings.require(bearing.radial_stiffness > 0.0, name + "radial_stiffness", bearing.radial_stiffness, "above 0");
     findings.require(bearing.axial_stiffness >= 0.0, name + "axial_stiffness", bearing.axial_stiffness, "0 or more");
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/base/findings.hpp"
@@ -49,6 +50,23 @@ class Checking : Findings {
       require(!name.empty() && known.insert(name).second, "unit.shafts." + std::to_string(i) + ".name", name.empty() ? "(not given)" : name,
               "a name of its own, neither pinion nor wheel");
     }
+    if (!unit_.empty()) check_names_of_parts();
+  }
+
+  void check_names_of_parts() {
+    std::map<std::string, std::string> bearings, meshes;  // by name their keys
+    const auto check = [this](std::map<std::string, std::string>& known_names, const std::string& name, const std::string& key) {
+      if (name.empty()) return;
+      const auto [first, is_new] = known_names.emplace(name, key);
+      require(is_new, key, name, "a name of its own: " + first->second + " has this one");
+    };
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      for (std::size_t k = 0; k < all_[i]->bearings.size(); ++k) {
+        check(bearings, all_[i]->bearings[k].name, shafts_.table(static_cast<int>(i)) + ".bearings." + std::to_string(k) + ".name");
+      }
+    }
+    for (std::size_t i = 0; i < unit_.joints.size(); ++i) check(bearings, unit_.joints[i].bearing.name, "unit.joints." + std::to_string(i) + ".name");
+    for (std::size_t i = 0; i < unit_.meshes.size(); ++i) check(meshes, unit_.meshes[i].name, "unit.meshes." + std::to_string(i) + ".name");
   }
 
   std::string shafts_in_words() const {

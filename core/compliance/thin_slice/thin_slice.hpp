@@ -31,7 +31,7 @@ enum class ThinSliceStatus {
 /// used instead. kappa > 0 for every steel pair tried (3966 of 5 .. 500 teeth, modules 0.1 .. 50 mm, pressure angles
 /// from 12 to 28 deg, helix angles to 45 deg, profile shifts -1 .. 1): about 1.2 .. 1.5 without profile shift, mostly
 /// ISO's C_M = 0.8 (measured stiffness over computed), at most 2.13, and near 0 only for teeth almost severed by
-/// undercut. Where Hertz alone exceeds ISO's flexibility, status() says so.
+/// undercut. Where Hertz alone exceeds ISO's flexibility, with moduli of elasticity far above that of steel, status() says so.
 ///
 /// Q is tabulated over the roll length; the interpolation error was below 2e-4 of Q in 2690 such pairs.
 class ThinSlice {

@@ -1,11 +1,13 @@
 #include "studies/exchange/rexs/rexs_import.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <sstream>
 #include <utility>
 
 #include "core/base/units.hpp"
@@ -13,6 +15,7 @@
 #include "studies/exchange/rexs/rexs_defects.hpp"
 #include "studies/exchange/rexs/rexs_load_cases.hpp"
 #include "studies/exchange/rexs/rexs_lubricant.hpp"
+#include "studies/exchange/rexs/rexs_origin.hpp"
 #include "studies/exchange/rexs/rexs_shaft.hpp"
 #include "studies/exchange/rexs/rexs_unit.hpp"
 #include "studies/exchange/rexs/unit_text.hpp"
@@ -76,7 +79,9 @@ class Import {
     cases_.write(one_sided, unit ? unit->misalignment : std::map<const LoadCase*, double>(), body);
     write_lubricant(reading_, parts_, cases_.temperature(), body);
     std::string not_taken = write_rest(body);
-    return {head() + body.text(), std::move(grids_), reading_.warnings(), std::move(not_taken)};
+    const std::string text = head() + body.text();
+    check(text);
+    return {text, std::move(grids_), reading_.warnings(), std::move(not_taken)};
   }
 
  private:
@@ -95,11 +100,51 @@ class Import {
     std::vector<StudyProblem> all;
     for (const InvalidInput& problem : problems) {
       const auto source = pair.remarks.find(problem.field());
-      const std::string from = source == pair.remarks.end() ? "" : " (" + source->second + ")";
-      all.push_back({reading_.file(), parts_.stage->line, parts_.stage->line > 0 ? 1 : 0,
-                     Reading::name_of(*parts_.stage) + ": " + problem.field() + from, problem.value(), "allowed is " + problem.allowed()});
+      const Origin origin = origin_of(reading_.model(), source == pair.remarks.end() ? "" : source->second);
+      all.push_back(in_terms_of_file({"", 0, 0, problem.field(), problem.value(), "allowed is " + problem.allowed()}, origin));
     }
     throw StudyErrors(std::move(all));
+  }
+
+  /// A problem of a key of the study as one of the file, where its value came from.
+  StudyProblem in_terms_of_file(StudyProblem problem, const Origin& origin) const {
+    problem.file = reading_.file();
+    problem.line = origin.component != nullptr ? origin.line : parts_.stage->line;
+    problem.column = problem.line > 0 ? 1 : 0;
+    problem.key = full_name(*parts_.stage) + ": " + problem.key + (origin.words.empty() ? "" : " (" + origin.words + ")");
+    return problem;
+  }
+
+  /// What the comment behind a line of the study names. A line without one has that of the first line of its table, or the component by which that calls itself.
+  Origin origin_of_line(const std::vector<std::string>& lines, std::size_t line) const {
+    const auto after = [&](std::string_view mark) {
+      const std::size_t at = lines[line].find(mark);
+      return at == std::string::npos ? std::string() : lines[line].substr(at + mark.size());
+    };
+    if (const std::string remark = after(" # "); !remark.empty()) return origin_of(reading_.model(), remark);
+    while (line > 0 && !lines[line].starts_with('[')) --line;
+    line = std::min(line + 1, lines.size() - 1);
+    std::string text = after(" # ").empty() ? after(" = ") : after(" # ");
+    std::erase(text, '"');
+    const Origin origin = origin_of(reading_.model(), text);
+    return origin.component == nullptr ? Origin{} : origin;
+  }
+
+  /// The schema's own limits (a module of 2 m, a helix angle of 60 deg) are checked where they are kept; grids are in files yet to be written.
+  void check(const std::string& study) const {
+    std::vector<std::string> lines;
+    std::istringstream text(study);
+    for (std::string line; std::getline(text, line);) lines.push_back(line.starts_with("grid = ") ? "" : line);
+    try {
+      parse_study(fmt::format("{}\n", fmt::join(lines, "\n")), reading_.file());
+    } catch (const StudyErrors& errors) {
+      std::vector<StudyProblem> problems = errors.problems();
+      for (StudyProblem& problem : problems) {
+        const bool has_line = problem.line > 0;
+        problem = in_terms_of_file(problem, has_line ? origin_of_line(lines, static_cast<std::size_t>(problem.line) - 1) : Origin{});
+      }
+      throw StudyErrors(std::move(problems));
+    }
   }
 
   /// Written last: what is to be said is known only then.
@@ -190,24 +235,7 @@ class Import {
 ImportedStudy import_stage(const std::string& text, const std::string& name, const RexsImportOptions& options) {
   const Model model = parse_model(text, name);
   Reading reading(model, name);
-  ImportedStudy study = Import(reading, options).study();
-  // The schema's own limits (a module of 2 m, a helix angle of 60 deg) are checked where they are kept; grids are in files yet to be written.
-  std::string without_grids;
-  for (std::size_t at = 0; at < study.text.size();) {
-    const std::size_t end = std::min(study.text.find('\n', at), study.text.size());
-    const std::string line = study.text.substr(at, end - at);
-    if (!line.starts_with("grid = ")) without_grids += line;
-    without_grids += "\n";
-    at = end + 1;
-  }
-  try {
-    parse_study(without_grids, name);
-  } catch (const StudyErrors& errors) {
-    std::vector<StudyProblem> problems = errors.problems();
-    for (StudyProblem& problem : problems) problem.line = problem.column = 0;  // places of a file that nobody has
-    throw StudyErrors(std::move(problems));
-  }
-  return study;
+  return Import(reading, options).study();
 }
 
 std::string not_taken_name(const std::string& grid_stem) { return grid_stem + "-not-taken.txt"; }

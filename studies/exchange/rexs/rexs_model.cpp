@@ -9,8 +9,8 @@
 #include <charconv>
 #include <cstdint>
 #include <map>
-#include <set>
 
+#include "studies/base/printable.hpp"
 #include "studies/exchange/rexs/rexs_archive.hpp"
 #include "studies/exchange/rexs/rexs_errors.hpp"
 
@@ -56,16 +56,16 @@ void check_attributes(const Component& component, const std::string& name) {
     const Attribute& first = *seen.emplace(attribute.id, &attribute).first->second;
     if (first.text == attribute.text && first.unit == attribute.unit && first.array == attribute.array) continue;
     const std::string value = attribute.array.empty() ? attribute.text : fmt::format("{}", fmt::join(attribute.array, " "));
-    refuse(name, attribute.line, fmt::format("{} {}", component.type, attribute.id), value, "one value: this attribute has another before it");
+    refuse(name, attribute.line, full_name(component) + " " + attribute.id, value, "one value: this attribute has another before it");
   }
 }
 
 void check_ids(const Model& model, const std::string& name) {
-  std::set<int> seen;
+  std::map<int, const Component*> seen;
   for (const Component& component : model.components) {
-    if (!seen.insert(component.id).second) {
-      refuse(name, component.line, "component id", std::to_string(component.id), "each id once");
-    }
+    const auto [first, is_new] = seen.emplace(component.id, &component);
+    if (!is_new)
+      refuse(name, component.line, "component id", std::to_string(component.id), "each id once: " + full_name(*first->second) + " has this one");
     check_attributes(component, name);
   }
   for (const LoadCase& load_case : model.load_cases) {
@@ -78,6 +78,11 @@ void check_ids(const Model& model, const std::string& name) {
 const Attribute* Component::find(std::string_view attribute) const {
   const auto found = std::ranges::find(attributes, attribute, &Attribute::id);
   return found == attributes.end() ? nullptr : &*found;
+}
+
+std::string full_name(const Component& component) {
+  const std::string name = without_control_characters(component.name);
+  return fmt::format("{} {}{}", component.type, component.id, name.empty() ? "" : " \"" + name + "\"");
 }
 
 std::optional<int> Relation::role(std::string_view name) const {

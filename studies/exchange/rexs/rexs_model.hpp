@@ -33,6 +33,9 @@ struct Component {
   const Attribute* find(std::string_view attribute) const;
 };
 
+/// A component as messages name it: shaft 11 "Output".
+std::string full_name(const Component& component);
+
 struct Reference {
   int id{0};
   std::string role;

@@ -25,7 +25,7 @@ std::string Reading::name_of(const Component& component) { return fmt::format("{
 void Reading::refuse_attribute(const Component& component, std::string_view attribute, const std::string& value, const std::string& allowed) const {
   const Attribute* found = component.find(attribute);
   const int line = found != nullptr ? found->line : component.line;
-  refuse(file_, line, name_of(component) + " " + std::string(attribute), value, allowed);
+  refuse(file_, line, full_name(component) + " " + std::string(attribute), value, allowed);
 }
 
 double Reading::unit_of(const Component& component, const Attribute& attribute, Dimension dimension) const {

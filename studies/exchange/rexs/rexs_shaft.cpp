@@ -88,6 +88,7 @@ class ShaftReading {
   double diameter(const Component& section, const std::string& id, double fallback) {
     const auto begin = number(section, id + "_begin", Dimension::Length), end = number(section, id + "_end", Dimension::Length);
     const double one = begin.value_or(end.value_or(fallback)), two = end.value_or(one);
+    if (one < 0.0 || two < 0.0) throw LeftOut{full_name(section) + " has an " + id + " below 0"};
     if (one != two)
       note(section, fmt::format("its cone is taken as a cylinder of the mean {}", id == "outer_diameter" ? "outer diameter" : "inner diameter"));
     return 0.5 * (one + two);

@@ -15,6 +15,7 @@
 #include "core/compliance/shaft/unit_statics.hpp"
 #include "core/compliance/shaft/unit_supports.hpp"
 #include "studies/exchange/rexs/rexs_errors.hpp"
+#include "studies/exchange/rexs/rexs_origin.hpp"
 #include "studies/exchange/rexs/rexs_unit_part.hpp"
 #include "studies/exchange/rexs/unit_scaling.hpp"
 #include "studies/study/study_errors.hpp"
@@ -98,7 +99,8 @@ class UnitReading {
     for (const Member m : {Member::Pinion, Member::Wheel})
       names.emplace_back(std::string(flankwright::name_of(m)) + ".shaft", full_name(*parts_[m].shaft));
     const auto add = [&](const char* table, const std::vector<std::string>& components) {
-      for (std::size_t i = 0; i < components.size(); ++i) names.emplace_back(fmt::format("unit.{}.{}", table, i), components[i]);
+      for (std::size_t i = 0; i < components.size(); ++i)
+        names.emplace_back(fmt::format("unit.{}.{}", table, i), origin_of(reading_.model(), components[i]).words);
     };
     add("shafts", result_.shaft_remarks);
     add("loads", result_.load_remarks);

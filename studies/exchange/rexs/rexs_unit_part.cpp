@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "studies/base/printable.hpp"
-
 namespace flankwright::studies::rexs {
 
 namespace {
@@ -40,11 +38,6 @@ bool is_joined(const Reading& reading, const StageParts& parts) {
 }
 
 }  // namespace
-
-std::string full_name(const Component& component) {
-  const std::string name = without_control_characters(component.name);
-  return Reading::name_of(component) + (name.empty() ? "" : " \"" + name + "\"");
-}
 
 UnitPart part_around(const Reading& reading, const Component& stage) {
   UnitPart part;

@@ -14,9 +14,6 @@ struct UnitPart {
 /// @param stage  a stage of the file
 UnitPart part_around(const Reading& reading, const Component& stage);
 
-/// A component as messages name it: shaft 11 "Output".
-std::string full_name(const Component& component);
-
 /// Whether a stage is to be read with the unit around it: its gears have other meshes, or its shafts carry other gears or run in other shafts. Where
 /// only its own shafts lack sections, that is said.
 bool is_in_unit(Reading& reading, const StageParts& parts);

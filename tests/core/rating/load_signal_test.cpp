@@ -228,9 +228,18 @@ TEST_CASE("What is wrong with a signal is told by its quantity", "[core][rating]
   CHECK(at_level({{0.0, 1.0}, {1.0}, {1.0, 1.0}}) == "torque");
   CHECK(at_level({{0.0, 1.0}, {1.0, 2.0}, {}}) == "speed");
   CHECK(at_level({{0.0, 1.0}, {1.0, 2.0}, {1.0}}) == "speed");
-  CHECK(at_level({{0.0, 1.0}, {-1.0, 0.0}, {1.0, 1.0}}) == "torque");
-  CHECK(at_level({{0.0, 1.0}, {1.0, 2.0}, {0.0, 0.0}}) == "torque");
   CHECK(at_level({{0.0, 1.0}, {1.0, 2.0}, {1.0, 1.0}}).empty());
   CHECK(refused_quantity([] { count_time_at_level({{0.0, 1.0}, {1.0, 2.0}, {1.0, 1.0}}, 0); }) == "ranges");
-  CHECK(refused_quantity([] { count_rainflow({{0.0, 1.0}, {-3.0, -2.0}, {}}, 5); }) == "torque");
+}
+
+TEST_CASE("A signal that loads only the other flank, or only a pinion that stands, has no levels", "[core][rating][life]") {
+  const LoadCount reversed = count_time_at_level({{0.0, 8.0}, {-2.0, -1.0}, {one_turn, one_turn}}, 5);
+  CHECK(reversed.levels.empty());
+  CHECK(reversed.reversed_duration == 8.0);
+  CHECK(reversed.idle_duration == 8.0);
+  CHECK(reversed.idle_revolutions == Approx(8.0).epsilon(1e-12));  // round-off
+  const LoadCount standing = count_time_at_level({{0.0, 8.0}, {1.0, 2.0}, {0.0, 0.0}}, 5);
+  CHECK(standing.levels.empty());
+  CHECK(standing.standing_duration == Approx(8.0).epsilon(1e-12));
+  CHECK(count_rainflow({{0.0, 1.0, 2.0}, {-3.0, -2.0, -3.0}, {}}, 5).levels.empty());
 }

@@ -30,6 +30,45 @@ TEST_CASE("Another stage of a unit whose shafts gape is named", "[studies][analy
   CHECK(is_said("21"));
 }
 
+TEST_CASE("A bearing in whose clearance the shaft floats is named with its shaft and the torque", "[studies][analysis][unit]") {
+  const auto said = [](const std::string& clearance) {  // of a bearing between the others [um]
+    const Json results = study_texts::results_of(
+        small::unit_pair() + small::unit(),
+        {{"load.torque", "[150, 300]"},
+         {"pinion.shaft.bearings",
+          "[{ position = 10, radial_stiffness = 800 }, { name = \"middle\", position = 90, radial_stiffness = 800, radial_clearance = " + clearance +
+              " }, { position = 170, radial_stiffness = 400 }]"}});
+    std::vector<std::string> found;
+    for (const Json& note : results.at("notes")) {
+      if (note.get<std::string>().find("carries nothing") != std::string::npos) found.push_back(note);
+    }
+    for (const Json& loaded : results.at("loaded")) CHECK(loaded.at("unit").at("bearings").at(1).at("carries").get<bool>() == found.empty());
+    return found;
+  };
+  CHECK(said("0.1").empty());
+  CHECK(said("500") ==
+        std::vector<std::string>{"bearing \"middle\" of the shaft \"pinion\" carries nothing in scene \"nominal\" at 150 N·m and in 1 "
+                                 "further load case: the shaft floats in its clearance of 500 um there, where small forces that the study "
+                                 "leaves out, such as its weight, can move it"});
+}
+
+TEST_CASE("Thin slices that cannot be calibrated to ISO 6336-1 say so", "[studies][analysis]") {
+  const auto is_said = [](const std::vector<Override>& overrides) {
+    const std::string gear = "face_width = 1000\nprofile_shift = 0.5\nrack = { addendum = 0.5, dedendum = 0.65, root_radius = 0.1 }\n";
+    const Study study =
+        parse_study("[pair]\nnormal_module = 100\npressure_angle = 34\nhelix_angle = 20\n[pinion]\nteeth = 66\n" + gear + "[wheel]\nteeth = 71\n" +
+                        gear + "[material]\npoissons_ratio = 0\n[load]\ntorque = 1e6\n[fidelity]\ncompliance = \"thin_slice\"\n",
+                    "stub.toml", overrides);
+    return std::ranges::any_of(study_notes(study, flankwright::make_gear_pair(study.pair)),
+                               [](const std::string& note) { return note.find("cannot be calibrated to the standard") != std::string::npos; });
+  };
+  const Override stiff{"material.youngs_modulus", "1e7"};
+  CHECK(!is_said({}));
+  CHECK(is_said({stiff}));
+  CHECK(!is_said({stiff, {"fidelity.compliance", "fitted"}}));
+  CHECK(!is_said({stiff, {"load.torque", "0"}}));
+}
+
 TEST_CASE("A torque that no tooth bears is said to leave no small deflections", "[studies][analysis]") {
   const auto is_said = [](const std::string& torque) {
     const Json results = study_texts::results_of(small::helical_pair("", "", torque));

@@ -202,6 +202,37 @@ TEST_CASE("A scene of the other flank takes the torques of a signal below 0", "[
   CHECK(study.scenes[1].torques[1] == Approx(1e5).epsilon(1e-12));
 }
 
+TEST_CASE("A signal below 0 alone rates the other flank as its mirror image rates the pair's own", "[studies][life]") {
+  const SignalFolder of("time,torque,speed\n0,-300,1200\n10,-500,1200\n20,-300,1200\n");
+  const auto run = [&](const std::string& keys, const std::string& scenes) {
+    return run_study(
+        parse_study(signal_pair + "[load]\nspectrum = { " + by_signal + ", hours = 100, bins = 2" + keys + " }\n" + scenes, of.study_path()));
+  };
+  const std::string coast = "[[scenes]]\nname = \"coast\"\nworking_flank = \"left\"\n";
+  for (const std::string counting : {"time_at_level", "rainflow"}) {
+    CAPTURE(counting);
+    const std::string by = ", counting = \"" + counting + "\"";
+    const StudyResults reversed = run(by, coast), mirrored = run(by + ", torque_factor = -1", "");
+    REQUIRE(reversed.study.spectrum.size() == mirrored.study.spectrum.size());
+    for (std::size_t k = 0; k < mirrored.study.spectrum.size(); ++k) {
+      CHECK(reversed.study.spectrum[k].torque == -mirrored.study.spectrum[k].torque);
+      CHECK(reversed.study.spectrum[k].cycles == mirrored.study.spectrum[k].cycles);
+    }
+    const auto damage = [](const StudyResults& results) {
+      return results_document(results).at("life").at("spectra")[0].at("pinion").at("contact").at("damage").get<double>();
+    };
+    CHECK(damage(mirrored) > 0.0);
+    CHECK(damage(reversed) == Approx(damage(mirrored)).epsilon(1e-9));  // a spur pair is its own mirror image: round-off
+  }
+  // Without a scene of that flank nothing is rated, and it is said so.
+  const StudyResults alone = run("", "");
+  CHECK(alone.loaded.empty());
+  CHECK(std::ranges::count(
+            alone.notes,
+            "load.spectrum: for 100 % of the revolutions the torque is below 0 and loads the other flank, which counts as time without load "
+            "here; a scene with the other working_flank rates that one") == 1);
+}
+
 TEST_CASE("Rainflow gives both gears' teeth the cycles of the torque", "[studies][life]") {
   const SignalFolder of("time,torque\n0,0\n1,300\n2,0\n3,300\n4,0\n5,100\n6,0\n");
   const Study study = of.study(by_signal + ", counting = \"rainflow\", bins = 2, repeats = 1000", "speed = 1500\n");
@@ -231,7 +262,10 @@ TEST_CASE("What is wrong with a study's signal is told by key or by line", "[stu
   CHECK(of.problem(by_signal + ", hours = 1, repeats = 2", "speed = 1000\n").key == "load.spectrum.repeats");
   CHECK(of.problem(by_signal + ", bins = 0", "speed = 1000\n").key == "load.spectrum.bins");
   CHECK(of.problem(by_signal + ", counting = \"levels\"", "speed = 1000\n").key == "load.spectrum.counting");
-  CHECK(of.problem(by_signal + ", torque_factor = -1", "speed = 1000\n").allowed.find("never above 0") != std::string::npos);
+  const auto torque_of = [&](const std::string& keys) { return of.problem(by_signal + keys, "speed = 1000\n").allowed; };
+  CHECK(torque_of(", torque_factor = 0").find("torque is always 0 while the pinion turns, allowed is one that loads a flank") != std::string::npos);
+  CHECK(torque_of(", torque_factor = 0, counting = \"rainflow\"").find("torque is without a swing, allowed is one that changes") !=
+        std::string::npos);
   CHECK(of.problem(by_signal + ", counting = \"rainflow\", repeats = 1e12, torque_factor = 1e6").key.empty());
   const SignalFolder large("time,torque\n0,1e8\n1,2e8\n2,1e8\n");
   CHECK(large.problem(by_signal + ", counting = \"rainflow\", torque_factor = 1e6").allowed.find("counts to a torque of") != std::string::npos);

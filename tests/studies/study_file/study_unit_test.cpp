@@ -153,6 +153,18 @@ TEST_CASE("Units that cannot be are refused with their position in the file", "[
   CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.meshes.0.position_2", "181"}}),
              Contains("unit.meshes.0.position_2 = 181") && Contains("0 .. 180 mm"));
   CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.shafts.0.bearings.1.position", "20"}}), Contains("a position of its own"));
+  // Names are unique; of shafts they are by what meshes refer to them.
+  CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.shafts.0.bearings.0.name", "left"}, {"unit.shafts.0.bearings.1.name", "left"}}),
+             Contains("unit.shafts.0.bearings.1.name = left: allowed is a name of its own: unit.shafts.0.bearings.0.name has this one"));
+  std::string twice = unit_pair + unit_text;
+  twice.replace(twice.find("{ position = 10,"), 16, "{ name = \"left\", position = 10,");
+  twice.replace(twice.find("{ position = 20 }"), 17, "{ name = \"left\", position = 20 }");
+  CHECK_THAT(unit_refusal(twice),
+             Contains("unit.toml:26: unit.shafts.0.bearings.0.name = left: allowed is a name of its own: pinion.shaft.bearings.0.name"));
+  CHECK_THAT(unit_refusal(unit_pair + unit_text + unit_text.substr(unit_text.find("[[unit.meshes]]"))),
+             Contains("unit.toml:40: unit.meshes.1.name = first: allowed is a name of its own: unit.meshes.0.name has this one"));
+  CHECK_THAT(unit_refusal(unit_pair + unit_text.substr(0, unit_text.find("[[unit.meshes]]")) + unit_text),
+             Contains("unit.shafts.1.name = input: allowed is a name of its own"));
   CHECK_THAT(unit_refusal(unit_pair + "[[unit.shafts]]\nname = \"input\"\nsections = [{ length = 100 }]\n"),
              Contains("unit.shafts.0.sections.0.outer_diameter") && Contains("required"));
   const std::string two = "{ position = 20 }, { position = 150 }";

@@ -252,6 +252,8 @@ TEST_CASE("Gears in a loop turn at one speed, and meet along their shafts", "[co
   all.unit.shafts[0].sections = {{300, 50}};
   all.unit.meshes.push_back(all.unit.meshes[0]);
   UnitMesh& second = all.unit.meshes[1];
+  CHECK_THAT(first_problem(all), Contains("unit.meshes.1.name = first stage: a name of its own: unit.meshes.0.name has this one"));
+  second.name = "second path";
   second.gears[0].position = 40;
   second.gears[1].position = -5 + 1;  // 77 mm from the first one on the input shaft, 76 mm on the other: faces of 50 mm meet all the same
   second.torque = -1e5;

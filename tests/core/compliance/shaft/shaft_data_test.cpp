@@ -42,6 +42,7 @@ TEST_CASE("An impossible shaft is refused by the name of its field", "[core][com
       Case{"bearings", [](ShaftData& s) { s.bearings.pop_back(); }}, Case{"bearings", [](ShaftData& s) { s.bearings[0].axial_stiffness = 0; }},
       Case{"bearings.1.position", [](ShaftData& s) { s.bearings[1].position = 161; }},
       Case{"bearings.1.position", [](ShaftData& s) { s.bearings[1].position = 10; }},
+      Case{"bearings.1.name", [](ShaftData& s) { s.bearings[0].name = s.bearings[1].name = "left"; }},
       Case{"bearings.0.radial_stiffness", [](ShaftData& s) { s.bearings[0].radial_stiffness = 0; }},
       Case{"bearings.0.tilting_stiffness", [](ShaftData& s) { s.bearings[0].tilting_stiffness = -1; }},
       Case{"gear_position", [](ShaftData& s) { s.gear_position = 19, s.torque_position = 160; }},

@@ -12,6 +12,7 @@
 #include "studies/study_file/grid_file.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/exchange/rexs/rexs_export.hpp"
+#include "studies/exchange/rexs/rexs_origin.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/exchange/rexs/gear_train.hpp"
 #include "tests/studies/study_texts.hpp"
@@ -387,7 +388,41 @@ TEST_CASE("A stage that no study can describe is refused with component and attr
   // A pair that cannot run: the reason, and what of the file it came from.
   CHECK_THAT(
       refusal(replaced(good, "type=\"cylindrical_stage\"/>", "type=\"cylindrical_stage\">" + attribute("center_distance", "500") + "</component>")),
-      Contains("cylindrical_stage 1: pair.centre_distance (cylindrical_stage 1 center_distance) = 500"));
+      Contains("gears.rexs:7:1: cylindrical_stage 1: pair.centre_distance (cylindrical_stage 1 center_distance) = 500"));
+}
+
+TEST_CASE("A value that no study allows is refused with the component, its name and the line that it came from", "[studies][rexs][import][errors]") {
+  const auto with_material = [](const std::string& modulus) {
+    return small_file(
+        "<component id=\"30\" name=\"Steel\" type=\"material\">\n" + attribute("elastic_modulus", modulus, "N / mm^2") + "</component>\n",
+        "<relation id=\"30\" type=\"reference\"><ref id=\"2\" role=\"origin\"/><ref id=\"30\" role=\"referenced\"/></relation>\n");
+  };
+  REQUIRE(refusal(with_material("206000")).empty());
+  CHECK(
+      refusal(with_material("-1")) ==
+      "gears.rexs:26:1: cylindrical_stage 1: pinion.material.youngs_modulus (material 30 \"Steel\" elastic_modulus) = -1: allowed is a number above 0 "
+      "and at most 10000000 MPa");
+  // What the attribute's own reading refuses has the name, too.
+  CHECK_THAT(refusal(with_material("soft")), Contains("gears.rexs:26:1: material 30 \"Steel\" elastic_modulus = soft"));
+  // Forms without lines have the rest.
+  const std::string json = rexs::model_text(rexs::parse_model(with_material("-1"), "gears.rexs"), rexs::Form::Json);
+  CHECK_THAT(refusal(json), Contains("gears.rexs: cylindrical_stage 1: pinion.material.youngs_modulus (material 30 \"Steel\" elastic_modulus) = -1"));
+}
+
+TEST_CASE("A remark names components and the line of the first one's attribute", "[studies][rexs][import][errors]") {
+  const rexs::Model model{
+      .version = "1.6",
+      .components = {{.id = 4, .type = "shaft", .name = "Input", .line = 3},
+                     {.id = 6, .type = "gear", .name = "G \"1\"", .attributes = {{.id = "face_width", .unit = "mm", .line = 8}}, .line = 7}}};
+  const auto origin = [&](const std::string& remark) { return rexs::origin_of(model, remark); };
+  CHECK(origin("gear 6 face_width, in modules").words == "gear 6 \"G \"1\"\" face_width, in modules");
+  CHECK(origin("gear 6 face_width, in modules").line == 8);
+  CHECK(origin("gear 6 helix_angle").line == 7);
+  CHECK(origin("shaft 4, gear 6 face_width").words == "shaft 4 \"Input\", gear 6 \"G \"1\"\" face_width");
+  CHECK(origin("shaft 4, gear 6 face_width").line == 3);
+  CHECK(origin("of load case 4").words == "of load case 4");  // a number, but no shaft
+  CHECK(origin("of load case 4").component == nullptr);
+  CHECK(origin("").words.empty());
 }
 
 TEST_CASE("Where no stage of a file can be imported the reasons are the error", "[studies][rexs][import][errors]") {

@@ -92,7 +92,7 @@ TEST_CASE("A damaged REXS file is refused in one line with its position", "[stud
   CHECK_THAT(model_refusal("{\"model\": {\"components\": 3}}"), Contains("components = 3: allowed is a list"));
   const std::string component = "<component id='1' type='a'/>";
   CHECK_THAT(model_refusal("<model><components>" + component + "\n" + component + "</components></model>"),
-             Contains("gears.rexs:2:1: component id = 1: allowed is each id once"));
+             Contains("gears.rexs:2:1: component id = 1: allowed is each id once: a 1 has this one"));
   CHECK_THAT(model_refusal("<model><components>\n<component id='x1'/></components></model>"),
              Contains("gears.rexs:2:1: component id = x1: allowed is a whole number"));
   CHECK_THAT(model_refusal("<model><relations><relation id='1' type='a'><ref id='-3'/></relation></relations></model>"), Contains("ref id = -3"));
@@ -100,7 +100,7 @@ TEST_CASE("A damaged REXS file is refused in one line with its position", "[stud
     return "<model><components>\n<component id='1' type='a'>\n<attribute id='face_width' unit='mm'>" + first +
            "</attribute>\n<attribute id='face_width' unit='mm'>" + second + "</attribute></component></components></model>";
   };
-  CHECK_THAT(model_refusal(with_widths("20", "25")), Contains("gears.rexs:4:1: a face_width = 25: allowed is one value"));
+  CHECK_THAT(model_refusal(with_widths("20", "25")), Contains("gears.rexs:4:1: a 1 face_width = 25: allowed is one value"));
   CHECK(model_refusal(with_widths("20", "20")).empty());
   // Neither nesting nor entities exhaust anything.
   std::string deep_json = "{\"model\": ", deep_xml = "<model>";

@@ -110,6 +110,8 @@ TEST_CASE("A shaft that a study cannot have is named with the reason", "[studies
   CHECK_THAT(why(replaced(good, "\"gear_casing\"", "\"shaft\"")), Contains("shaft 7: not taken, its concept_bearing 13 sits on shaft 16"));
   CHECK_THAT(why(replaced(good, of_shaft("u_coordinate_on_shaft", "70"), of_shaft("u_coordinate_on_shaft", "75"))),
              Contains("shaft_section 12 does not begin where the one before it ends"));
+  CHECK_THAT(why(replaced(good, of_shaft("outer_diameter_begin", "45"), of_shaft("outer_diameter_begin", "-5"))),
+             Contains("shaft 7: not taken, shaft_section 11 has an outer_diameter below 0"));  // not the mean of -5 and 45 mm
   CHECK_THAT(why(replaced(good, of_shaft("torque_around_u_axis", "100", "N m"), "")), Contains("nothing says where its torque enters"));
   CHECK_THAT(why(replaced(good, of_shaft("u_coordinate_on_shaft", "80"), of_shaft("u_coordinate_on_shaft", "150"))), Contains("gear_position"));
   CHECK_THAT(why(replaced(good, "<ref id=\"15\" role=\"part\"/>", "<ref id=\"3\" role=\"part\"/>")), Contains("it carries 2 gears"));
