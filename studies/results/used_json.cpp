@@ -93,6 +93,15 @@ Json cycle_json(const StudyResults& results) {
           {"automatic", cycle.automatic_positions && cycle.phases.empty()}};
 }
 
+/// Without the round-off of conversions to the units of the keys.
+Json without_round_off(Json json) {
+  if (json.is_number_float()) return units::without_round_off(json.get<double>());
+  if (json.is_structured()) {
+    for (Json& part : json) part = without_round_off(std::move(part));
+  }
+  return json;
+}
+
 }  // namespace
 
 Json quadrature_json(const Quadrature& quadrature) {
@@ -134,7 +143,7 @@ Json used_json(const StudyResults& results) {
   if (!results.models.empty() && results.structures.pair == nullptr) {
     used["thin_slice"] = {{"calibration", results.models.front().calibration}};
   }
-  return used;
+  return without_round_off(std::move(used));
 }
 
 }  // namespace flankwright::studies

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace flankwright {
 
@@ -39,12 +38,7 @@ bool DesignVariable::touches(Member of, ModificationParameter other) const {
 
 double DesignVariable::outside_factor() const { return flankwright::outside_factor(describe(parameter).kind); }
 
-double DesignVariable::outside(double value) const {
-  constexpr double parts = 1e9;  // of a unit: far finer than what can be ground
-  const double exact = value * outside_factor(), even = std::round(exact * parts) / parts;
-  const double round_off = 8.0 * std::numeric_limits<double>::epsilon() * std::max(1.0, std::abs(exact));
-  return std::abs(exact - even) <= round_off ? even : exact;
-}
+double DesignVariable::outside(double value) const { return units::without_round_off(value * outside_factor()); }
 
 const char* DesignVariable::unit() const { return unit_of(describe(parameter).kind); }
 

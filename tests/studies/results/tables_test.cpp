@@ -1,5 +1,6 @@
 #include "studies/tasks/optimise/optimise_results.hpp"
 #include "studies/results/tables.hpp"
+#include "studies/results/used_json.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -139,6 +140,16 @@ TEST_CASE("An optimisation adds the tables of its scenes and its history", "[stu
   for (const char* said : {"pinion lead crowning", "bent back", "over the scenes", "peak-to-peak TE <= 5 um", "nlopt:slsqp: converged", "known to"}) {
     CHECK_THAT(summary, Catch::Contains(said));
   }
+}
+
+TEST_CASE("What was used is shown as it was given, without the round-off of conversions", "[studies][output]") {
+  REQUIRE(in_deg(30.0 * units::deg) != 30.0);
+  const StudyResults results =
+      run_study(parse_study(small::helical_pair(), "used.toml", {{"pair.helix_angle", "30"}, {"fidelity.compliance", "rigid"}}));
+  CHECK(used_json(results).at("pair").at("helix_angle_deg").get<double>() == 30.0);
+  CHECK(units::without_round_off(1.0 / 3.0) == 1.0 / 3.0);
+  CHECK(units::without_round_off(-5.999999999999999) == -6.0);
+  CHECK(units::without_round_off(1e-12) == 1e-12);
 }
 
 }  // namespace flankwright::studies
