@@ -13,7 +13,7 @@ struct CycleOutputs {
   double te_mean{not_given};              ///< of f_t [mm]
   double te_peak_to_peak{not_given};      ///< [mm]
   double peak_contact_stress{not_given};  ///< [MPa]
-  double mean_approach{not_given};        ///< of f_t - min(g): the approach of the flanks [mm]
+  double mean_approach{not_given};        ///< of LoadedPosition::approach_of_teeth() [mm]
   /// Of f_t, orders 1 .. 5 as far as the positions resolve them; amplitudes are their moduli [mm].
   std::vector<std::complex<double>> te_harmonics{};
 };

@@ -81,6 +81,7 @@ class MeshBuilder {
   std::vector<std::optional<RoundedEdge>> tip_edges;  ///< one a point; nothing: contact does not see an edge
   std::vector<Corrections> corrections;               ///< one a point
   OutsideMotion outside;                              ///< of the shafts by other forces than the mesh's
+  double shaft_compliance{0.0};                       ///< see MeshPosition [mm/N]
   std::vector<ContactLaw> laws;                       ///< one a point, or none
   Eigen::VectorXd even_load_compliance;               ///< part of the laws' compliance that K takes back, see ContactCouplingEffect [mm^2/N]
   RootStressInfluence root_stress;

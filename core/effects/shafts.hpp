@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/effects/effect.hpp"
 
 namespace flankwright {
@@ -15,7 +17,9 @@ class ShaftsEffect final : public Effect {
   }
   void act(MeshBuilder& builder) const override {
     if (builder.parts.shafts == nullptr) return;
-    builder.influence += builder.parts.shafts->influence(builder.points, builder.parts.axial_offset());
+    const Eigen::MatrixXd yielding = builder.parts.shafts->influence(builder.points, builder.parts.axial_offset());
+    builder.influence += yielding;
+    if (yielding.size() > 0) builder.shaft_compliance = std::max(0.0, yielding.rowwise().mean().minCoeff());
     builder.outside = builder.parts.shafts->outside_motion(builder.points, builder.parts.axial_offset());
   }
 };

@@ -99,7 +99,8 @@ double mean_error_by_positions(const std::vector<double>& samples, double share 
   return share * std::max(std::abs(mean_of(samples) - mean_of_half), highest);
 }
 
-double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
+double approach_of(const LoadedPosition& position) { return position.approach(); }
+double approach_of_teeth(const LoadedPosition& position) { return position.approach_of_teeth(); }
 double te_of(const LoadedPosition& position) { return position.load.transmission_error; }
 double stress_of(const LoadedPosition& position) { return position.contact_stress.maxCoeff(); }
 double load_of(const LoadedPosition& position) { return position.peak_load.maxCoeff(); }
@@ -270,7 +271,7 @@ CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCyc
 
 double headline_error(const CycleErrors& errors, const CycleSummary& summary, const LoadedCycle& cycle) {
   if (!cycle.usable() || cycle.positions.empty() || std::isnan(errors.te_peak_to_peak)) return not_given;
-  const double variation = std::max(summary.te_peak_to_peak, quiet_share * mean_of(curve(cycle, approach_of)));
+  const double variation = std::max(summary.te_peak_to_peak, quiet_share * mean_of(curve(cycle, approach_of_teeth)));
   double largest = errors.te_peak_to_peak / variation;
   for (std::size_t k = 0; k < std::min<std::size_t>(figure_harmonics, errors.te_harmonics.size()); ++k) {
     largest = std::max(largest, errors.te_harmonics[k] / variation);

@@ -142,7 +142,7 @@ class Search {
       const LoadedPosition& position = cycle.positions[p];
       add(model.positions[p], position);
       even_.insert(position.phase);
-      mean_deflection_ += spacing_ * (position.load.transmission_error - position.gap.total.minCoeff());
+      mean_deflection_ += spacing_ * position.approach_of_teeth();
     }
     const double variation = std::max(te_.best() + turned_te_.best(), quiet_share * mean_deflection_);
     // The share of the load on edges is not sought for itself: it peaks where the stress does.

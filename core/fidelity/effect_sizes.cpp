@@ -67,11 +67,11 @@ class Cases {
 /// Outputs as positions come in.
 class OutputSum {
  public:
-  void add(double highest_stress, double transmission_error, double least_gap) {
+  void add(double highest_stress, double transmission_error, double approach_of_teeth) {
     least_ = std::fmin(least_, transmission_error);
     most_ = std::fmax(most_, transmission_error);
     sum_ += transmission_error;
-    approach_ += transmission_error - least_gap;
+    approach_ += approach_of_teeth;
     te_.push_back(transmission_error);
     stress_ = std::max(stress_, highest_stress);
     ++count_;
@@ -177,7 +177,8 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
     for (const PointPeaks& peaks : point_peaks(*other.model, at, problem.laws, found->line_load, crests)) {
       highest = std::max(highest, peaks.stress.value);
     }
-    outputs.add(highest, found->transmission_error, gap.total.minCoeff());
+    const double approach = found->transmission_error - gap.total.minCoeff() - at.shaft_compliance * cycle.force;
+    outputs.add(highest, found->transmission_error, std::max(0.0, approach));
   }
   result.size.influence = EffectInfluence::between(with, outputs.outputs());
   result.size.seconds = clock.seconds();
@@ -191,7 +192,7 @@ CycleOutputs cycle_outputs(const LoadedCycle& cycle) {
   OutputSum outputs;
   for (const LoadedPosition& position : cycle.positions) {
     outputs.add(position.contact_stress.size() > 0 ? position.contact_stress.maxCoeff() : 0.0, position.load.transmission_error,
-                position.gap.total.minCoeff());
+                position.approach_of_teeth());
   }
   return outputs.outputs();
 }

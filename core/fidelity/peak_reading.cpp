@@ -43,7 +43,7 @@ double untouched_edge_error(const SolvedCycles& of, const CycleExtremes& extreme
   // Raised by the mean deflection, a peak of the approach can be treated as one of stress.
   double deflection = 0.0;
   for (const LoadedPosition& position : of.fine.cycle->positions)
-    deflection += (position.load.transmission_error - position.gap.total.minCoeff()) / static_cast<double>(of.fine.cycle->positions.size());
+    deflection += position.approach_of_teeth() / static_cast<double>(of.fine.cycle->positions.size());
   const PositionReading raised = [&](const MeshPosition& at, const LoadedPosition& loaded) {
     return std::fmax(0.0, edge_approach(at, loaded, gear).approach + deflection);
   };

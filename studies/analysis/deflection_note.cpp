@@ -10,8 +10,14 @@ namespace flankwright::studies {
 
 namespace {
 
-/// What teeth of steel discs yield by ISO 6336-1, F/(b c_gamma), without shafts, bearings and webs [mm].
-double yield_of_teeth(const MeshModel& model, const LoadedCycle& cycle) { return cycle.force / (model.face_width * model.iso.c_gamma) * units::um; }
+/// The largest approach of the flanks over the cycle by the deformation of teeth and bodies [mm].
+double largest_approach(const LoadedCycle& cycle) {
+  double largest = 0.0;
+  for (const LoadedPosition& position : cycle.positions) {
+    if (position.gap.total.size() > 0) largest = std::max(largest, position.approach_of_teeth());
+  }
+  return largest;
+}
 
 }  // namespace
 
@@ -20,14 +26,14 @@ std::string deflection_note(const StudyResults& results) {
   const LoadedResult* worst = nullptr;
   double largest = still_small * results.pair.data.normal_module;
   for (const LoadedResult& loaded : results.loaded) {
-    const double yield = yield_of_teeth(results.models[loaded.model], loaded.cycle);
-    if (!(yield > largest)) continue;
-    largest = yield;
+    const double approach = largest_approach(loaded.cycle);
+    if (!(approach > largest)) continue;
+    largest = approach;
     worst = &loaded;
   }
   if (worst == nullptr) return {};
   return fmt::format(
-      "in scene \"{}\" at {:.6g} N·m the teeth yield by about {:.3g} mm, which is no small deflection at a module of {:.3g} mm: the torque is too large, or the "
+      "in scene \"{}\" at {:.6g} N·m teeth and bodies deform by {:.3g} mm, which is no small deflection at a module of {:.3g} mm: the torque is too large, or the "
       "material or the common face too small, for these results to mean anything",
       worst->scene, worst->torque / units::newton_metre, largest, results.pair.data.normal_module);
 }

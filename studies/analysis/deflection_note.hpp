@@ -6,7 +6,7 @@
 
 namespace flankwright::studies {
 
-/// A load case in which the teeth yield so much that deflections are not small against them, in words; empty where none does. Shafts, bearings and bodies may yield more.
+/// A load case in which teeth and bodies deform so much that deflections are not small against them, in words; empty where none does.
 std::string deflection_note(const StudyResults& results);
 
 }  // namespace flankwright::studies

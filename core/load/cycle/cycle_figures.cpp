@@ -75,7 +75,7 @@ CycleFigures figures_of(const LoadedCycle& cycle, const CycleSummary& summary) {
   double approach = 0.0;
   for (const LoadedPosition& position : cycle.positions) {
     te.push_back(position.load.transmission_error);
-    if (position.load.usable()) approach += position.load.transmission_error - position.gap.total.minCoeff();
+    if (position.load.usable()) approach += position.approach_of_teeth();
   }
   CycleFigures figures;
   figures[Figure::TeMean] = summary.te_mean;

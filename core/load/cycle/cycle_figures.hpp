@@ -40,7 +40,7 @@ PerFigure larger_of(const PerFigure& a, const PerFigure& b);
 
 struct CycleFigures {
   PerFigure value{};                ///< transmission error [mm], stress [MPa], line load [N/mm], load factor [-]
-  double mean_approach{not_given};  ///< mean of f_t - min(g): the approach of the flanks [mm]
+  double mean_approach{not_given};  ///< mean of LoadedPosition::approach_of_teeth() [mm]
   /// Of f_t, orders 1 .. figure_harmonics; their moduli are the harmonics. NaN beyond what the positions resolve [mm].
   std::array<std::complex<double>, figure_harmonics> te_phasor{};
 

@@ -57,8 +57,6 @@ CycleGradient::Root root_gradient(const MeshModel& model, const LoadedCycle& cyc
   return {root_derivative(model, cycle, {.member = member}), root_derivative(model, cycle, {.member = member, .tangent_only = true})};
 }
 
-double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
-
 }  // namespace
 
 TeHarmonic te_harmonic(const LoadedCycle& cycle, int order) {
@@ -82,7 +80,7 @@ Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCy
 }
 
 Eigen::RowVectorXd stiffness_derivative(const LoadedCycle& cycle, const LoadedPosition& position) {
-  return secant_derivative(cycle, position.stiffness, approach_of(position), position.approach_derivative);
+  return secant_derivative(cycle, position.stiffness, position.approach(), position.approach_derivative);
 }
 
 CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle, const CycleSummary& summary) {
@@ -96,7 +94,7 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
   for (const LoadedPosition& position : cycle.positions) {
     gradient.te_mean += position.transmission_error_derivative / n;
     mean_approach_derivative += position.approach_derivative / n;
-    mean_approach += approach_of(position) / n;
+    mean_approach += position.approach() / n;
   }
   gradient.mean_stiffness = secant_derivative(cycle, summary.mean_stiffness, mean_approach, mean_approach_derivative);
   const auto [least, largest] = std::ranges::minmax_element(cycle.positions, {}, &LoadedPosition::stiffness);

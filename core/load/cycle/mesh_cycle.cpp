@@ -193,7 +193,8 @@ LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, 
     const LoadedLines lines{model, at, gaps, starts, position.gap, cycle.force, laws, load.line_load, load.structural_deflection};
     fill_peaks(lines, slopes, condition_slopes, cycle.force_derivative, position);
     if (!moved.empty()) add_moved_places(moved, cycle.force, position);
-    const double approach = position.load.transmission_error - position.gap.total.minCoeff();
+    position.shaft_deflection = at.shaft_compliance * cycle.force;
+    const double approach = position.approach();
     likely_approach = 2.0 * approach;
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
@@ -305,7 +306,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
     summary.least_stiffness = std::fmin(summary.least_stiffness, position.stiffness);
     summary.largest_stiffness = std::fmax(summary.largest_stiffness, position.stiffness);
-    mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
+    mean_approach += position.approach();
   }
   summary.peak_root_stress = std::fmax(summary.pinion_root_stress.stress, summary.wheel_root_stress.stress);
   const double n = static_cast<double>(cycle.positions.size());

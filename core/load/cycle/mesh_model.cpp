@@ -50,6 +50,7 @@ MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const
   for (Eigen::Index i = 0; i < position.weight.size(); ++i) position.weight[i] = position.points[static_cast<std::size_t>(i)].weight;
   position.face_ends = face_ends(model, path, position, face);
   position.outside = std::move(builder.outside);
+  position.shaft_compliance = builder.shaft_compliance;
   position.even_load_compliance = std::move(builder.even_load_compliance);
   return position;
 }

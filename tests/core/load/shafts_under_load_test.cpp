@@ -81,6 +81,24 @@ TEST_CASE("Under load the shafts' twist is in the transmission error, to the mic
   const double twist = torque / (G * J) * 300 * gears.pinion.base_radius * std::cos(gears.base_helix_angle);
   for (Eigen::Index i = 0; i < 4; ++i) {
     CHECK(a.transmission_error()[i] - b.transmission_error()[i] == Approx(twist).epsilon(1e-8));  // the solver's tolerance
+    // The twist is no deformation of teeth.
+    const LoadedPosition &twisted = a.positions[static_cast<std::size_t>(i)], &other = b.positions[static_cast<std::size_t>(i)];
+    CHECK(twisted.approach_of_teeth() == Approx(other.approach_of_teeth()).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("Without what the shafts yield at all points alike, teeth deform as on rigid shafts", "[core][load][shaft][physics]") {
+  const GearPair gears = mesh_cases::pair(21, 40, 0, 4, kFace);
+  const double torque = mesh_cases::torque_for(gears, 200);
+  const ShaftPair soft(gears, shaft(40), shaft(45, false), GearBodyIn::Shaft);
+  const LoadedCycle rigid = analyse_cycle(model_with(gears, nullptr), {}, torque), with = analyse_cycle(model_with(gears, &soft), {}, torque);
+  for (std::size_t i = 0; i < rigid.positions.size(); ++i) {
+    const LoadedPosition &on_rigid = rigid.positions[i], &on_soft = with.positions[i];
+    REQUIRE(on_soft.approach() > 3.0 * on_rigid.approach());
+    CHECK(on_rigid.approach_of_teeth() == on_rigid.approach());
+    constexpr double twist_along_the_face = 0.3;  // model: each shaft twists within the gear, from zero at one point of the face
+    CHECK(on_soft.approach_of_teeth() >= on_rigid.approach());
+    CHECK(on_soft.approach_of_teeth() == Approx(on_rigid.approach()).epsilon(twist_along_the_face));
   }
 }
 
