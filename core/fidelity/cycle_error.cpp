@@ -158,7 +158,7 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   if (!std::isnan(summary.edge_stress)) {
     // The highest of a few positions that an edge touches at: two resolutions may agree there by chance, and do not beside it.
     errors.edge_stress = of_peaks * peak_difference(samples_of(edge_stress_of), 0.0);
-    errors.tip_edge_share = peaks_apart(edge_share_of);
+    errors.tip_edge_share = of_peaks * peak_difference(samples_of(edge_share_of), 0.0);
   }
   // The least gap, which the approach is counted from, is that of a point: order one.
   errors.mean_stiffness = stiffness_error(of_order_one * mean_error_by_points(differences(approach_of)), fine, summary);

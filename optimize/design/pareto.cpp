@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
@@ -40,6 +41,7 @@ class FrontTracing {
       } else {
         fill_triangle();
       }
+      search_from_neighbours();
     }
     front_.mark_dominated();
     front_.seconds = clock_.seconds();
@@ -142,18 +144,44 @@ class FrontTracing {
   double range(std::size_t k) const { return front_.range(k); }
   Eigen::VectorXd normalised(const ParetoPoint& point) const { return front_.normalised(point); }
 
-  /// The compromise seen from a reference point.
-  ParetoPoint compromise(const Eigen::VectorXd& reference) {
+  /// The compromise seen from a reference point, searched from a design.
+  ParetoPoint compromise(const Eigen::VectorXd& reference, const Eigen::VectorXd& start) {
     std::vector<ScalarisedObjective> scalarisation;
     for (std::size_t k = 0; k < front_.objectives.size(); ++k) {
       scalarisation.push_back({front_.objectives[k], front_.ideal[k] + reference[static_cast<Eigen::Index>(k)] * range(k), range(k)});
     }
     DesignProblem problem = problem_.judged_by(front_.objectives.front(), problem_.task().objective_bounds, scalarisation);
-    const auto nearest = std::min_element(front_.points.begin(), front_.points.end(), [&](const ParetoPoint& a, const ParetoPoint& b) {
-      return (normalised(a) - reference).norm() < (normalised(b) - reference).norm();
-    });
-    problem.set_start(nearest->x);
+    problem.set_start(start);
     return point(search(problem));
+  }
+
+  /// The point of some that is nearest to values.
+  const ParetoPoint& nearest(const std::vector<ParetoPoint>& points, const Eigen::VectorXd& values) const {
+    return *std::ranges::min_element(points, {}, [&](const ParetoPoint& p) { return (normalised(p) - values).norm(); });
+  }
+  ParetoPoint compromise(const Eigen::VectorXd& reference) { return compromise(reference, nearest(front_.points, reference).x); }
+
+  /// Every search is a local one: each compromise is sought once more from the design of a neighbour, along the front and back, so that a better kind of design spreads from
+  /// where it was found. One that is better in all objectives takes its place.
+  void search_from_neighbours() {
+    const std::size_t anchors = front_.objectives.size();
+    std::vector<std::size_t> order(front_.points.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (const bool back : {false, true}) {
+      if (back) std::ranges::reverse(order);
+      std::vector<ParetoPoint> passed;
+      for (const std::size_t i : order) {
+        const bool is_anchor = anchors == 2 ? i == 0 || i + 1 == order.size() : i < anchors;
+        if (!is_anchor && !passed.empty()) {
+          if (is_out_of_budget()) return;
+          const Eigen::VectorXd here = normalised(front_.points[i]);
+          const ParetoPoint found = compromise(here, nearest(passed, here).x);
+          const bool keeps_limits = found.constraint_violation <= DesignLog::tolerance;
+          if (keeps_limits && (normalised(found) - here).maxCoeff() < -ParetoFront::same) front_.points[i] = found;
+        }
+        passed.push_back(front_.points[i]);
+      }
+    }
   }
 
   void halve_gaps() {

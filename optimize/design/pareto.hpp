@@ -57,7 +57,7 @@ struct ParetoFront {
 /// from reference points a. With two objectives a is the middle of the widest gap between neighbours so far; then the
 /// points between the ends are sought once more from equal steps of arc length along the front found, where that makes
 /// the spacing more even. With three, the points a are a regular grid on the triangle of the single optima. Each search
-/// starts from the nearest design found before.
+/// starts from the nearest design found before, and each compromise is sought once more from the designs of its neighbours.
 /// @param objectives    two or three
 /// @param points   >= number of objectives; for three the largest triangular number within it
 /// @param options  a solver that takes gradients and constraints; its budget is that of the whole front

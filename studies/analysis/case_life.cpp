@@ -7,6 +7,7 @@
 #include "core/gear/both_gears.hpp"
 #include "core/fidelity/cycle_error.hpp"
 #include "core/rating/contact_temperature.hpp"
+#include "core/rating/edge_contact_start.hpp"
 #include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
 #include "studies/analysis/film_readings.hpp"
@@ -50,7 +51,7 @@ void add_film_of(const MeshModel& model, const LoadedCycle& cycle, const Lubrica
       film[j] = local_film(model.pair, model.contact_modulus, at, lubricant, condition).ratio;
       of.film = std::fmin(of.film, film[j]);
       const LocalTemperature local = local_temperature(model.pair, at, condition);
-      if (!(loaded.edge_stress.size() > 0 && loaded.edge_stress[j] > 0.0)) {
+      if (!reaches_tip_edge(model.positions[i], loaded, static_cast<std::size_t>(j))) {
         of.film_of_flanks = std::fmin(of.film_of_flanks, film[j]);
         of.flank_temperature = std::fmax(of.flank_temperature, local.contact);
       }

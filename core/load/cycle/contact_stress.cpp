@@ -114,10 +114,14 @@ void rise_to_face_end(const MeshModel& model, const MeshPosition& at, const Face
     peaks.load = following(deflection, load, by_deflection);
     peaks.load.points[0].by_edge += by_edge;
   }
-  const StripContact::Peak peak = contact_stress(model, end.place, &law, load).highest;
-  if (!(peak.pressure > peaks.stress.value)) return;
-  peaks.stress = following(deflection, peak.pressure, peak.slope * by_deflection);
-  peaks.stress.points[0].by_edge += peak.by_edge + peak.slope * by_edge;
+  const auto raise = [&](const StripContact::Peak& peak, PlaceValue& value) {
+    if (!(peak.pressure > value.value)) return;
+    value = following(deflection, peak.pressure, peak.slope * by_deflection);
+    value.points[0].by_edge += peak.by_edge + peak.slope * by_edge;
+  };
+  const StripContact::Peaks at_end = contact_stress(model, end.place, &law, load);
+  raise(at_end.highest, peaks.stress);
+  raise(at_end.on_edge, peaks.on_edge);
 }
 
 /// Raises stress and load of the higher of both points beside a crest to those on it.

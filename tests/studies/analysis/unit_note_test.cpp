@@ -99,6 +99,14 @@ TEST_CASE("A film that is thinnest on a tip edge is shown beside that of the fla
   CHECK(on_edge.at("contact_temperature_degC").get<double>() > on_edge.at("flank_temperature_degC").get<double>());
   CHECK(on_flank.at("specific_film_thickness") == on_flank.at("film_thickness_of_flanks"));
   CHECK(on_flank.at("contact_temperature_degC") == on_flank.at("flank_temperature_degC"));
+
+  SECTION("and on a sharp edge, whose pressure is not known, it is said to be too favourable") {
+    const Json sharp = study_texts::results_of(small::spur_pair() + oil, {{"pinion.edges.tip_rounding", "0"}, {"wheel.edges.tip_rounding", "0"}});
+    CHECK_FALSE(is_said(sharp));
+    CHECK(std::ranges::any_of(sharp.at("notes"), [](const Json& note) {
+      return note.get<std::string>().find("contact reaches a sharp tip edge (scene \"nominal\", 150 N·m)") != std::string::npos;
+    }));
+  }
 }
 
 TEST_CASE("Teeth are not blamed for what soft bearings yield", "[studies][analysis][unit]") {
