@@ -84,7 +84,7 @@ class OptimiseRun {
     add_unmet_by_design(problem, results_.study.table<OptimiseTable>(), found_.design, results_.requirements);
     if (found_.scatter) {
       add_unmet_over_draws();
-      note_too_few_draws();
+      note_steep_statistic();
     }
     if (found_.front) add_what_the_front_lacks();
     for (const std::string& note : steep_lead_notes(found_.design.after.analysis.modification, results_.pair))
@@ -136,16 +136,15 @@ class OptimiseRun {
     results_.requirements.push_back(fmt::format("the search over the draws ended early ({}): {}", to_string(design.status), design.message));
   }
 
-  /// A statistic that hangs on few of the draws, such as those of which a tip edge touches, may be much worse over others.
-  void note_too_few_draws() {
-    constexpr double worth_saying = 0.02;  // of the statistic
+  /// Where the distribution over draws rises steeply, as where tip edges begin to touch, the search may have ended on the wrong side of the step.
+  void note_steep_statistic() {
+    constexpr double steep = 0.1;  // width of the interval over the statistic: that of smooth distributions is a few per cent
     const PredictedStatistic& predicted = found_.scatter->predicted;
-    const double over_draws = found_.scatter->design.value;
-    if (!(over_draws < predicted.low) || !(predicted.value > (1.0 + worth_saying) * over_draws)) return;
-    const std::string unit = behind_number(found_.task.objective_unit());
+    if (!(predicted.high - predicted.low > steep * predicted.value)) return;
     results_.notes.push_back(fmt::format(
-        "over the {} draws searched the design found has {:.4g}{}, over others {:.4g}{} ({:.4g} to {:.4g}): the search saw too few draws, a larger optimise.scatter.draws finds a better design",
-        found_.scatter->draws.size(), over_draws, unit, predicted.value, unit, predicted.low, predicted.high));
+        "the statistic of the design found lies where its distribution rises steeply, between {:.4g} and {:.4g}{}: more of optimise.scatter.draws or "
+        "another optimise.scatter.seed may find a better design",
+        predicted.low, predicted.high, behind_number(found_.task.objective_unit())));
   }
 
   void add_what_the_front_lacks() {
