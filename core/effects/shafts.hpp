@@ -19,7 +19,7 @@ class ShaftsEffect final : public Effect {
     if (builder.parts.shafts == nullptr) return;
     const Eigen::MatrixXd yielding = builder.parts.shafts->influence(builder.points, builder.parts.axial_offset());
     builder.influence += yielding;
-    if (yielding.size() > 0) builder.shaft_compliance = std::max(0.0, yielding.rowwise().mean().minCoeff());
+    if (yielding.size() > 0) builder.shaft_compliance = std::max(0.0, yielding.mean());
     builder.outside = builder.parts.shafts->outside_motion(builder.points, builder.parts.axial_offset());
   }
 };

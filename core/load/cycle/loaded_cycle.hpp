@@ -22,7 +22,7 @@ struct LoadedPosition {
   /// for later.
   Eigen::VectorXd root_stress;
   double stiffness{not_given};   ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
-  double shaft_deflection{0.0};  ///< part of the approach that the shafts yield at all points alike [mm]
+  double shaft_deflection{0.0};  ///< part of the approach that the shafts yield, see MeshPosition::shaft_compliance [mm]
   // Derivatives with respect to the parameters, one column each; those of root_stress: see root_stress_derivative().
   Eigen::MatrixXd gap_derivative;                    ///< d(gap.total)/dp, n x m
   Eigen::MatrixXd line_load_derivative;              ///< dw/dp, n x m
@@ -34,7 +34,7 @@ struct LoadedPosition {
   Eigen::RowVectorXd approach_derivative;            ///< of f_t - min(g), one point's where several are nearest, 1 x m
   /// Of the flanks from first touch on, f_t - min(g) [mm]; of a usable load distribution.
   double approach() const { return load.transmission_error - gap.total.minCoeff(); }
-  /// The same without what the shafts yield at all points alike: by this teeth and bodies deform.
+  /// The same without what the shafts yield: by this teeth and bodies deform.
   double approach_of_teeth() const {
     const double teeth = approach() - shaft_deflection;
     return teeth < 0.0 ? 0.0 : teeth;

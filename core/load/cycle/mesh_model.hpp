@@ -54,7 +54,7 @@ struct MeshPosition {
   RootStressInfluence root_stress{};       ///< no points: not asked for
   std::vector<FaceEndOfLine> face_ends{};  ///< none without Hertzian contact
   OutsideMotion outside{};                 ///< what other forces than the mesh's own open between the points
-  double shaft_compliance{0.0};  ///< what shafts yield at every point at least, under equal forces at all points that are 1 N together [mm/N]
+  double shaft_compliance{0.0};  ///< what shafts yield in the mean of all points, under equal forces at all of them that are 1 N together [mm/N]
   Eigen::VectorXd
       even_load_compliance{};  ///< part of the laws' compliance that K takes back on its diagonal, see ContactCouplingEffect [mm^2/N]; empty: none
 };

@@ -87,18 +87,20 @@ TEST_CASE("Under load the shafts' twist is in the transmission error, to the mic
   }
 }
 
-TEST_CASE("Without what the shafts yield at all points alike, teeth deform as on rigid shafts", "[core][load][shaft][physics]") {
+TEST_CASE("What the shafts yield is told from the deformation of the teeth", "[core][load][shaft][physics]") {
   const GearPair gears = mesh_cases::pair(21, 40, 0, 4, kFace);
-  const double torque = mesh_cases::torque_for(gears, 200);
   const ShaftPair soft(gears, shaft(40), shaft(45, false), GearBodyIn::Shaft);
-  const LoadedCycle rigid = analyse_cycle(model_with(gears, nullptr), {}, torque), with = analyse_cycle(model_with(gears, &soft), {}, torque);
-  for (std::size_t i = 0; i < rigid.positions.size(); ++i) {
-    const LoadedPosition &on_rigid = rigid.positions[i], &on_soft = with.positions[i];
-    REQUIRE(on_soft.approach() > 3.0 * on_rigid.approach());
-    CHECK(on_rigid.approach_of_teeth() == on_rigid.approach());
-    constexpr double twist_along_the_face = 0.3;  // model: each shaft twists within the gear, from zero at one point of the face
-    CHECK(on_soft.approach_of_teeth() >= on_rigid.approach());
-    CHECK(on_soft.approach_of_teeth() == Approx(on_rigid.approach()).epsilon(twist_along_the_face));
+  const MeshModel model = model_with(gears, &soft);
+  const LoadedCycle cycle = analyse_cycle(model, {}, mesh_cases::torque_for(gears, 200));
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const LoadedPosition& loaded = cycle.positions[i];
+    const Eigen::VectorXd forces = model.positions[i].weight.cwiseProduct(loaded.load.line_load);
+    // The mean of what the shafts yield under the loads, each point weighted by its load.
+    const double by_shafts = forces.dot(soft.influence(model.positions[i].points, 0.0) * forces) / cycle.force;
+    const double by_teeth = loaded.approach() - by_shafts;
+    REQUIRE(by_shafts > 2.0 * by_teeth);
+    constexpr double even_loads = 0.1;  // model: of even loads, where the shafts' twist moves them along the face
+    CHECK(loaded.approach_of_teeth() == Approx(by_teeth).margin(even_loads * by_shafts));
   }
 }
 
