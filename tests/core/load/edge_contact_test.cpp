@@ -236,6 +236,25 @@ TEST_CASE("Without relief edges carry the highest stress of a spur pair, and som
   CHECK(some.edge_stress < none.edge_stress);
 }
 
+TEST_CASE("Where a tip edge carries most at the end of the face, its stress there is the contact stress", "[core][load][edge][face-end]") {
+  const GearPair gears = rounded_pair(0, 0.05);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(32)});
+  FlankCondition condition;
+  condition.modification.pinion.lead_slope = 10 * units::um;
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque);
+  int at_ends = 0;
+  for (std::size_t k = 0; k < cycle.positions.size(); ++k) {
+    const LoadedPosition& loaded = cycle.positions[k];
+    Eigen::Index highest = 0;
+    const double stress = loaded.contact_stress.maxCoeff(&highest);
+    if (loaded.edge_stress[highest] == 0.0) continue;
+    const bool is_end = std::ranges::any_of(model.positions[k].face_ends, [&](const FaceEndOfLine& end) { return end.point == highest; });
+    at_ends += is_end ? 1 : 0;
+    CHECK(loaded.edge_stress[highest] == stress);
+  }
+  CHECK(at_ends > 0);
+}
+
 namespace {
 
 /// Of both gears.
