@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <functional>
 
 #include "studies/base/json_format.hpp"
@@ -70,23 +71,32 @@ std::string harmonics_csv(const Json& cases) {
   return csv;
 }
 
+/// The value of a key; null where there is none.
+Json value_or_null(const Json& of, const std::string& key) { return of.contains(key) ? of.at(key) : Json(); }
+
 std::string design_csv(const Json& optimise) {
   const Json &before = optimise.at("before"), &after = optimise.at("after");
-  std::string csv = "kind,name,unit,before,after,limit\n";
-  for (const auto& [name, value] : before.at("variables").items()) {
-    csv += "variable," + name + "," + field(before.at("variable_units").at(name)) + "," + field(value) + "," + field(after.at("variables").at(name)) +
-           ",\n";
-  }
-  csv += "objective," + field(optimise.at("objective_name")) + "," + field(optimise.at("objective_unit")) + "," + field(before.at("objective")) +
-         "," + field(after.at("objective")) + ",\n";
+  std::string csv = "kind,name,unit,before,after,limit,before_error,after_error\n";
+  const auto add = [&](const std::string& kind, const Json& name, const Json& unit, const std::array<Json, 2>& values, const Json& limit = {},
+                       const std::array<Json, 2>& errors = {}) {
+    csv += kind;
+    for (const Json& cell : {name, unit, values[0], values[1], limit, errors[0], errors[1]}) csv += "," + field(cell);
+    csv += "\n";
+  };
+  for (const auto& [name, value] : before.at("variables").items())
+    add("variable", name, before.at("variable_units").at(name), {value, after.at("variables").at(name)});
+  add("objective", optimise.at("objective_name"), optimise.at("objective_unit"), {before.at("objective"), after.at("objective")}, {},
+      {value_or_null(before, "objective_error"), value_or_null(after, "objective_error")});
   for (std::size_t k = 1; optimise.contains("stages") && k < optimise.at("stages").size(); ++k) {  // of a list of objectives
     const Json& stage = optimise.at("stages")[k];
-    csv += "objective," + field(stage.at("objective")) + "," + field(stage.at("unit")) + "," + field(before.at("later_objectives")[k - 1]) + "," +
-           field(after.at("later_objectives")[k - 1]) + ",\n";
+    const auto of = [k](const Json& design, const char* key) { return design.contains(key) ? design.at(key)[k - 1] : Json(); };
+    add("objective", stage.at("objective"), stage.at("unit"), {of(before, "later_objectives"), of(after, "later_objectives")}, {},
+        {of(before, "later_objectives_error"), of(after, "later_objectives_error")});
   }
+  const Json known_before = value_or_null(before, "constraints_error"), known_after = value_or_null(after, "constraints_error");
   for (const auto& [name, bound] : before.at("constraints").items()) {
-    csv += "constraint," + name + "," + field(bound.at("unit")) + "," + field(bound.at("value")) + "," +
-           field(after.at("constraints").at(name).at("value")) + "," + field(bound.at(bound.contains("max") ? "max" : "min")) + "\n";
+    add("constraint", name, bound.at("unit"), {bound.at("value"), after.at("constraints").at(name).at("value")},
+        bound.at(bound.contains("max") ? "max" : "min"), {value_or_null(known_before, name), value_or_null(known_after, name)});
   }
   return csv;
 }

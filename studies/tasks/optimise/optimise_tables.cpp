@@ -23,13 +23,14 @@ namespace flankwright::studies {
 namespace {
 
 std::string scenes_csv(const StudyResults& results) {
-  std::string csv = "scene,torque_Nm,weight,before,after\n";
+  std::string csv = "scene,torque_Nm,weight,before,after,before_error,after_error\n";
   const OptimiseResults& found = optimised(results);
   const ListedScenes listed(found.task);
   for (const std::size_t s : listed.indices()) {
     const DesignScene& scene = found.task.scenes[s];
-    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), csv_field(listed.torque(scene)), listed.weight(scene),
-                       found.design.before.scene_measures[s], found.design.after.scene_measures[s]);
+    csv += fmt::format("{},{},{},{},{},{},{}\n", csv_field(scene.name), csv_field(listed.torque(scene)), listed.weight(scene),
+                       found.design.before.scene_measures[s], found.design.after.scene_measures[s], csv_field(found.before_errors.scene_measures[s]),
+                       csv_field(found.after_errors.scene_measures[s]));
   }
   return csv;
 }

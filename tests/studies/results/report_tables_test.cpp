@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -69,6 +70,11 @@ TEST_CASE("The tables hold the numbers of results.json", "[studies][tables]") {
     CHECK(std::stod(rest.substr(rest.find(',') + 1)) == value.get<double>());
   }
   CHECK_THAT(tables.at("design.csv"), Catch::Contains("constraint,te_peak_to_peak,um,"));
+  // The last columns of the objective are its errors.
+  const nlohmann::json& optimise = json["optimise"];
+  const std::string errors =
+      fmt::format(",{},{}\n", optimise["before"]["objective_error"].get<double>(), optimise["after"]["objective_error"].get<double>());
+  CHECK_THAT(tables.at("design.csv"), Catch::Contains(errors));
   const std::string& harmonics = tables.at("harmonics.csv");
   std::size_t orders = 0;
   for (const nlohmann::json& loaded : json["loaded"]) orders += loaded["summary"]["te_harmonics_um"].size();
