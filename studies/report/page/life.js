@@ -85,7 +85,7 @@ const LIFE_BARS = [
   { key: "root_safety", title: "Root safety", y: "safety [-]",
     caption: "Stress that is borne for the load cycles of the case, the endurance limit where they are not given, over the largest stress of the fillet. Fainter bars are the wheel's." },
   { key: "specific_film_thickness", title: "Film thickness", y: "λ_GF [-]", of_pair: true,
-    caption: "Least film thickness over the roughness anywhere on the flank, ISO/TS 6336-22, method A." },
+    caption: "Least film thickness over the roughness anywhere on flank and tip edge, ISO/TS 6336-22, method A." },
   { key: "micropitting_safety", title: "Safety against micropitting", y: "safety [-]", of_pair: true, caption: "Least film thickness over the permissible one." },
 ];
 

@@ -126,12 +126,12 @@ function flank_life(grid, controls, life, selection) {
   }));
   if (!has_film) return;
   redraws.push(case_figure(grid, selection, { title: "Film of the flank in the load case", wide: paired,
-    caption: `Specific film thickness λ_GF of ISO/TS 6336-22, method A, at each point. ${end}Grey areas are never loaded.` }, (plot) => {
+    caption: `Specific film thickness λ_GF of ISO/TS 6336-22, method A, at each point; a tip edge in contact counts with its own pressure. ${end}Grey areas are never loaded.` }, (plot) => {
     said(plot);
     draw_film_map(plot, life, selection, gear);
   }));
   redraws.push(case_figure(grid, selection, { title: "Contact temperature in the load case", wide: paired,
-    caption: `Bulk and flash temperature at each point. ${end}Grey areas are never loaded.` }, (plot) => {
+    caption: `Bulk and flash temperature at each point; a tip edge in contact counts with its own pressure. ${end}Grey areas are never loaded.` }, (plot) => {
     said(plot);
     draw_temperature_map(plot, life, selection, gear);
   }));
