@@ -75,10 +75,11 @@ LoadedPoint point_of(const PeakCandidate& candidate, const LoadedScene& scene) {
 /// A value at one point with its gradient: by the point's line load and pressure and, where a parameter moves it, by the force of the mesh, on which mean friction and
 /// bulk temperature depend.
 /// @param local  LocalFilm or LocalTemperature of a film, at the point
-template <class Local, class Number>
-SmoothValue value_at(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, const Local& local, Number which) {
+/// @param field  the member of it that is the value
+template <class Local, class Field>
+SmoothValue value_at(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, const Local& local, Field field) {
   const auto here = local(film_of(term, scene));
-  SmoothValue found{here.*which, {}};
+  SmoothValue found{here.*field, {}};
   const LoadedCycle& cycle = scene.cycle;
   const LoadedPosition& position = cycle.positions[static_cast<std::size_t>(candidate.position)];
   if (position.line_load_derivative.cols() == 0) return found;
@@ -88,7 +89,7 @@ SmoothValue value_at(const ObjectiveTerm& term, const PeakCandidate& candidate, 
   if (cycle.force_derivative.size() != found.gradient.size() || cycle.force_derivative.isZero(0.0)) return found;
   const double step = 1e-5 * cycle.force;  // its square and round-off over it are below 1e-9 of powers of the force
   const double by_force =
-      (local(film_under(cycle.force + step, term, scene)).*which - local(film_under(cycle.force - step, term, scene)).*which) / (2.0 * step);
+      (local(film_under(cycle.force + step, term, scene)).*field - local(film_under(cycle.force - step, term, scene)).*field) / (2.0 * step);
   found.gradient += by_force * cycle.force_derivative.transpose();
   return found;
 }
