@@ -16,8 +16,8 @@ enum class HeatSource {
 ///
 ///     theta_fl = X mu_m w |v_1 - v_2| / (B_M (sqrt(v_1) + sqrt(v_2)) sqrt(2 b_H))                        [K]
 ///
-/// with the line load w, Hertz's half width b_H = 2 w/(pi p) of load and pressure, also on a tip edge, v = omega rho_t of either flank and B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. Both flanks are as hot as
-/// each other where they leave the band, and so fast that heat goes nowhere but inwards. w is the local load times K_A K_v, so the factors of load sharing and face
+/// with the line load w, Hertz's half width b_H = 2 w/(pi p) of load and pressure, also on a tip edge, v = omega rho_t of either flank and
+/// B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. Both flanks are as hot as each other where they leave the band, and so fast that heat goes nowhere but inwards. w is the local load times K_A K_v, so the factors of load sharing and face
 /// load are 1 [ISO/TS 6336-20 multiplies a nominal load by them]. The speeds are those of the transverse section, as the standard takes them for cylindrical gears:
 /// across the inclined lines of a helical gear they are cos(beta_b) times as high, for which theta_fl would be 1/sqrt(cos(beta_b)) times as large.
 /// @param condition  speed, overload and friction, from film_condition(); friction is the mesh's mean one

@@ -173,7 +173,10 @@ class FrontTracing {
       for (const std::size_t i : order) {
         const bool is_anchor = anchors == 2 ? i == 0 || i + 1 == order.size() : i < anchors;
         if (!is_anchor && !passed.empty()) {
-          if (is_out_of_budget()) return;
+          if (is_out_of_budget()) {
+            if (front_.message.empty()) front_.message = "the budget ended before all compromises of the front were sought from their neighbours";
+            return;
+          }
           const Eigen::VectorXd here = normalised(front_.points[i]);
           const ParetoPoint found = compromise(here, nearest(passed, here).x);
           const bool keeps_limits = found.constraint_violation <= DesignLog::tolerance;

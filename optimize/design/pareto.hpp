@@ -29,8 +29,8 @@ struct ParetoFront {
       worst;  ///< per objective over the points where each one alone is best, outside units; empty where the budget left one out
   int evaluations{0}, failures{0};
   double seconds{not_given};
-  std::string message;      ///< the reason for fewer points than wanted; empty without
-  bool ended_early{false};  ///< that is the budget
+  std::string message;      ///< why there are fewer points than wanted, or what was not sought; empty: nothing is missing
+  bool ended_early{false};  ///< the budget left points out
 
   static constexpr double same = 1e-4;  ///< of an objective's range [-]
   /// Longest over shortest distance between neighbours of a front of two objectives, scaled to their ranges; 1 is even;

@@ -166,7 +166,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
     assessment.optimum = find_optimum(last, design.optimality, best.variables);
     assessment.sensitivities =
         find_sensitivities(last, design.optimality, best.analysis.modification, best.variables, most_tolerance_intervals(study));
-    assessment.optimum->value = shown.later_objectives.empty() ? shown.objective : shown.later_objectives.back();
+    assessment.optimum->value = shown.last_objective();
     assessment.judged = last.task();
     assessment.judged->constraints = asked.constraints;
     if (progress) progress("looking for the usual signs", 0, 1, "");

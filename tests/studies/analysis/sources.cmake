@@ -10,6 +10,6 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/stress_factors_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_effect_sizes_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_effects_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/study_notes_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/tooth_thickness_study_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/unit_note_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/wide_error_note_test.cpp)

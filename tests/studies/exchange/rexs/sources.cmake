@@ -3,6 +3,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/rexs_archive_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_commands_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_defects_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_errors_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_export_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_import_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_load_test.cpp
