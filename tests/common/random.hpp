@@ -75,4 +75,14 @@ using Random = RandomNumbers<std::mt19937_64>;
 /// The numbers that the distributions of GCC's library draw with std::mt19937: for tests that were written with those. New ones take Random.
 using Random32 = RandomNumbers<std::mt19937>;
 
+/// One number of two, every bit of the result depending on every bit of both (finaliser of MurmurHash3, 64 bit).
+inline std::uint64_t mixed(std::uint64_t seed, std::uint64_t index) {
+  std::uint64_t x = seed * 0x9e3779b97f4a7c15u + index;
+  for (const std::uint64_t factor : {0xff51afd7ed558ccdu, 0xc4ceb9fe1a85ec53u}) {
+    x ^= x >> 33;
+    x *= factor;
+  }
+  return x ^ (x >> 33);
+}
+
 }  // namespace flankwright::tests

@@ -2,32 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "tests/core/load/load_cases.hpp"
+#include "tests/common/random.hpp"
+#include "tests/common/study_text.hpp"
 
 namespace flankwright::hard_cases {
 
 namespace {
 
-using load_cases::Random;
-
-/// Writes a study line by line.
-class StudyText {
- public:
-  void table(const std::string& name) { text_.append("[").append(name).append("]\n"); }
-  void line(const std::string& key, double value) {
-    char digits[40];
-    std::snprintf(digits, sizeof digits, " = %.17g\n", value);
-    text_.append(key).append(digits);
-  }
-  void line(const std::string& key, int value) { text_.append(key).append(" = ").append(std::to_string(value)).append("\n"); }
-  void line(const std::string& key, const std::string& value) { text_.append(key).append(" = ").append(value).append("\n"); }
-  const std::string& text() const { return text_; }
-
- private:
-  std::string text_;
-};
+using tests::mixed;
+using tests::Random;
+using tests::StudyText;
 
 class Drawing {
  public:
@@ -155,16 +140,6 @@ class Drawing {
   StudyText out_;
   double module_{1.0}, helix_{0.0}, face_{1.0}, radius_{1.0};
 };
-
-/// One number of two, every bit of the result depending on every bit of both (finaliser of MurmurHash3, 64 bit).
-std::uint64_t mixed(std::uint64_t seed, std::uint64_t index) {
-  std::uint64_t x = seed * 0x9e3779b97f4a7c15u + index;
-  for (const std::uint64_t factor : {0xff51afd7ed558ccdu, 0xc4ceb9fe1a85ec53u}) {
-    x ^= x >> 33;
-    x *= factor;
-  }
-  return x ^ (x >> 33);
-}
 
 }  // namespace
 
