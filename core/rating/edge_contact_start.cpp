@@ -22,7 +22,13 @@ MeshModel at_position(const MeshModel& model, std::size_t position) {
           .calibration = model.calibration,
           .iso = model.iso,
           .couples_points = model.couples_points,
-          .positions = {{.phase = at.phase, .points = at.points, .weight = at.weight, .influence = at.influence, .laws = at.laws}}};
+          .positions = {{.phase = at.phase,
+                         .points = at.points,
+                         .weight = at.weight,
+                         .influence = at.influence,
+                         .laws = at.laws,
+                         .outside = at.outside,
+                         .shaft_compliance = at.shaft_compliance}}};
 }
 
 /// A position at which an edge is touched.

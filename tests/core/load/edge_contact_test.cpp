@@ -271,7 +271,15 @@ std::optional<EdgeContactStart> earliest_start(const MeshModel& model, const Fla
 
 TEST_CASE("The torque at which edge contact begins parts torques with and without", "[core][rating][edge]") {
   const GearPair gears = rounded_pair(0, 0.1);
-  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(32)});
+  MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(32)});
+  // Other meshes of a unit may tilt the shafts, by a fixed amount and in proportion to the torque.
+  const double fixed = GENERATE(0.0, 4.0) * units::um, by_torque = GENERATE(0.0, 8.0) * units::um;
+  CAPTURE(fixed, by_torque);
+  for (MeshPosition& position : model.positions) {
+    const auto along_face = [&](Eigen::Index i) { return position.points[static_cast<std::size_t>(i)].z / model.face_width + 0.5; };
+    const Eigen::VectorXd tilt = Eigen::VectorXd::NullaryExpr(std::ssize(position.points), along_face);
+    position.outside = {.fixed = fixed * tilt, .by_force = by_torque / model.normal_force(torque) * tilt};
+  }
   const FlankCondition condition = relieved(8 * units::um);
   const auto start = earliest_start(model, condition);
   REQUIRE(start);
