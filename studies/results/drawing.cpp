@@ -159,10 +159,11 @@ std::vector<FlankDrawing> drawings_of(const StudyResults& results) {
   if (!tolerance_class) return drawings;
   const PerGear<Modification> ground = results.designs.empty() ? analysed_modification(study, results.effects) : results.designs.back().modification;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    const Modification& modification = ground[member];
-    drawings.push_back(
-        make_drawing(results.pair, member, modification,
-                     {*tolerance_class, given_tolerances(study, member, modification), ties_flanks(study, study.modification[member])}));
+    const Modification &modification = ground[member], &given = study.modification[member];
+    // Where the process leaves no trace on the flank, the analysis is without it; the sheet names it all the same.
+    const GrindingProcess& process = modification.process.kind == GrindingKind::None ? given.process : modification.process;
+    drawings.push_back(make_drawing(results.pair, member, modification,
+                                    {*tolerance_class, given_tolerances(study, member, modification), process, ties_flanks(study, given)}));
   }
   return drawings;
 }

@@ -196,6 +196,18 @@ void add_opposite_flank(std::vector<std::string>& lines, const GearPair& pair, M
   lines.emplace_back(differs ? "    all others as above" : "    the same amounts");
 }
 
+/// "by form grinding, wheel of 300 mm, its natural twist compensated by 100 %"; empty where the study names no process.
+std::string process_in_words(const GrindingProcess& process, bool helical) {
+  if (process.kind == GrindingKind::None) return "";
+  if (process.kind == GrindingKind::Topological) return "by topological grinding";
+  const std::string kind =
+      process.kind == GrindingKind::FormGrinding ? fmt::format("form grinding, wheel of {:g} mm", process.wheel_diameter) : "generating grinding";
+  if (!helical) return "by " + kind;
+  const double compensated = percent * process.twist_compensation;
+  return fmt::format("by {}, its natural twist {}", kind,
+                     compensated > 0.0 ? fmt::format("compensated by {:.4g} %", compensated) : "not compensated");
+}
+
 /// What the tool leaves that is no straight rack; empty for one.
 std::string generated_form(const Generation& generation) {
   if (const auto* rack = std::get_if<ParabolicRack>(&generation))
@@ -216,6 +228,7 @@ std::vector<std::string> drawing_lines(const GearPair& pair, Member member, cons
                                        const DrawingTerms& terms) {
   const Gear& gear = pair[member];
   std::vector<std::string> lines{fmt::format("The {} flank as ground, material removed:", name_of(pair.data.working_flank))};
+  if (const std::string process = process_in_words(terms.process, pair.data.helix_angle != 0.0); !process.empty()) lines.push_back(process);
   const auto amounts = amounts_of(pair, member, modification, t, terms);
   for (const std::vector<std::string>& amount : amounts) lines.insert(lines.end(), amount.begin(), amount.end());
   const std::string generated = generated_form(gear.data.generation);

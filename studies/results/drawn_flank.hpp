@@ -25,6 +25,7 @@ struct AmountTolerance {
 struct DrawingTerms {
   int tolerance_class{0};                  ///< of ISO 1328-1:2013
   std::vector<AmountTolerance> amounts{};  ///< tolerances that the study gives beside the class
+  GrindingProcess process{};               ///< that finishes the flanks, with the compensation of its twist that the design needs
   bool ties_flanks{false};                 ///< the opposite flank has what the same tool leaves there in the same setting, see on_opposite_flank()
 };
 

@@ -92,6 +92,21 @@ TEST_CASE("Rounding keeps the constraints where it can", "[optimize][design][rou
   CHECK(result.after.objective >= result.exact->objective * (1.0 - 1e-6));  // the optimiser's tolerance
 }
 
+TEST_CASE("Where no design keeps the limit of an output, rounding still keeps what the machine can grind", "[optimize][design][rounding]") {
+  DesignTask task = in_steps(2.0);
+  DesignProblem free(task);
+  const double best = optimise_design(free, SolverOptions{}).exact->variables[0];
+  ModificationConstraint sum{"sum", {{Member::Pinion, parameter_of("lead_crowning"), 1.0}}};
+  sum.maximum = best - 0.5 * units::um;  // a step up would lower the stress
+  task.modification_constraints = {sum};
+  task.constraints = {{.output = *find_term("peak_contact_stress"), .maximum = 100.0}};
+  DesignProblem problem(task);
+  const DesignResult result = optimise_design(problem, SolverOptions{});
+  CHECK(result.after.constraint_values[0] > 2.0 * task.constraints[0].maximum);
+  CHECK(is_multiple(result.after.variables[0], 2.0 * units::um));
+  CHECK(result.after.variables[0] <= sum.maximum);
+}
+
 TEST_CASE("Without steps nothing is rounded, and a budget of one analysis gives the nearest steps", "[optimize][design][rounding]") {
   DesignProblem smooth(spur({10.0}));
   SolverOptions options;
@@ -110,12 +125,12 @@ TEST_CASE("The least of a function on the steps is that of the whole grid", "[op
   // A narrow valley at 45 degrees, in which the least of the grid is not at the nearest steps; kept is only what lies on one side of a line.
   const auto figure = [&](const Eigen::VectorXd& x) {
     const double a = problem.unscaled(x, 0) / units::um, b = problem.unscaled(x, 1) / units::um;
-    return StepFigure{std::max(0.0, 4.0 - a), 10.0 + std::pow(a + b - 7.7, 2) + 0.05 * std::pow(a - b - 6.2, 2)};
+    return StepFigure{0.0, std::max(0.0, 4.0 - a), 10.0 + std::pow(a + b - 7.7, 2) + 0.05 * std::pow(a - b - 6.2, 2)};
   };
   const Eigen::VectorXd found = least_on_steps(problem, problem.scaled_design({6.95 * units::um, 0.75 * units::um}), figure);
   const DesignVariable &first = problem.task().variables[0], &second = problem.task().variables[1];
   constexpr double step = 3.0 * units::um;
-  StepFigure least{INFINITY, INFINITY};
+  StepFigure least{INFINITY, INFINITY, INFINITY};
   for (double a = std::ceil(first.lower / step) * step; a <= first.upper; a += step) {
     for (double b = std::ceil(second.lower / step) * step; b <= second.upper; b += step)
       least = std::min(least, figure(problem.scaled_design({a, b})));

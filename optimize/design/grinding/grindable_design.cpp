@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -84,14 +85,17 @@ class GrindableSearch {
     return held;
   }
 
-  /// What variable i is at least, either way, so that it and what is tied to it can be ground [mm]; 0: no limit.
+  /// What variable i is at least, either way, so that it and what is tied to it can be ground [mm]: on its steps, where it has any; 0: no limit.
   double smallest(int i) const {
-    if (task_.grindable.smallest == 0.0 || describe(variable(i).parameter).kind != ParameterKind::Amount) return 0.0;
+    const DesignVariable& v = variable(i);
+    if (task_.grindable.smallest == 0.0 || describe(v.parameter).kind != ParameterKind::Amount) return 0.0;
     double factor = 1.0;
     for (const LinkingConstraint& link : task_.links) {
       if (static_cast<int>(link.as) == i && link.factor != 0.0) factor = std::min(factor, std::abs(link.factor));
     }
-    return task_.grindable.smallest / factor;
+    const double least = task_.grindable.smallest / factor;
+    constexpr double round_off = 1e-9;  // of a step
+    return v.step > 0.0 ? std::ceil(least / v.step - round_off) * v.step : least;
   }
 
   std::optional<Question> next_question() const {
@@ -152,9 +156,11 @@ class GrindableSearch {
 
   static bool is_better(const GrindingAlternative& one, const GrindingAlternative& than) {
     if (std::isnan(one.objective) || std::isnan(than.objective)) return std::isnan(than.objective) && !std::isnan(one.objective);
-    const auto excess = [](const GrindingAlternative& of) { return std::max(0.0, of.constraint_violation - DesignLog::tolerance); };
-    if (excess(one) != excess(than)) return excess(one) < excess(than);
-    return one.objective < than.objective;
+    const auto excess = [](double violation) { return std::max(0.0, violation - DesignLog::tolerance); };
+    const auto rank = [&](const GrindingAlternative& of) {
+      return std::tuple(excess(of.modification_violation), excess(of.constraint_violation), of.objective);
+    };
+    return rank(one) < rank(than);
   }
 
   void decide(const Question& question) {
@@ -167,6 +173,7 @@ class GrindableSearch {
       tried.value = amount(run.x, held.member, held.parameter);
       tried.objective = run.objective;
       tried.constraint_violation = run.constraint_violation;
+      tried.modification_violation = problem_.violation(problem_.modification(run.x));
       designs.push_back(run.x);
       choice.tried.push_back(tried);
       if (is_better(tried, choice.tried[choice.taken])) choice.taken = choice.tried.size() - 1;

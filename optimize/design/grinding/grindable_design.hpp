@@ -20,10 +20,11 @@ enum class HeldAmount {
 struct GrindingAlternative {
   std::size_t amount{0};  ///< which of GrindingChoice::amounts is held
   HeldAmount held{HeldAmount::AtZero};
-  double limit{0.0};                       ///< that it is held to [mm]; 0 of AtZero
-  double value{not_given};                 ///< of that amount in this design [mm; parabolic_te 1/rad]
-  double objective{not_given};             ///< outside units; NaN where no design could be analysed
-  double constraint_violation{not_given};  ///< [-]
+  double limit{0.0};                         ///< that it is held to [mm]; 0 of AtZero
+  double value{not_given};                   ///< of that amount in this design [mm; parabolic_te 1/rad]
+  double objective{not_given};               ///< outside units; NaN where no design could be analysed
+  double constraint_violation{not_given};    ///< [-]
+  double modification_violation{not_given};  ///< its part by limits on modifications [-]
 };
 
 /// Something of a design that cannot be ground, and how that was settled.
@@ -74,11 +75,12 @@ SettledAmounts settle_amounts(const DesignProblem& problem, const Eigen::VectorX
 ///
 /// - Of a pair that is not ground together (GrindableAmounts::not_together) each of the two is held at zero in turn, where the variables can hold it
 ///   there, and the search goes on from the design with the other variables free.
-/// - An amount below the smallest (GrindableAmounts::smallest) is held at zero, and at the smallest amount or more with the sign that it has, likewise.
+/// - An amount below the smallest (GrindableAmounts::smallest, raised to a step of the variable) is held at zero, and at the smallest amount or more with the sign that it has, likewise.
 ///   Amounts are taken up one after the other, the one that is the smallest part of what it should be first.
 /// - round_design() with what was decided held.
 ///
-/// Of two alternatives the one that keeps the constraints is taken, then that of the lower objective, then the first. Decisions are not taken back, so that
+/// Of two alternatives the one that keeps the limits on modifications is taken: a design that exceeds them cannot be ground, whatever its outputs are. Then
+/// the one that keeps the other constraints, then that of the lower objective, then the first. Decisions are not taken back, so that
 /// the best of all combinations may be missed where several amounts are too small.
 /// @param problem  its box is back at what it was afterwards
 /// @param options  of the search that goes on; max_evaluations of all together

@@ -23,6 +23,9 @@ constexpr std::size_t scenes_tried_first = 4;
 /// Number of designs whose first scenes are analysed in parallel. It does not depend on the threads, so that nothing else does.
 constexpr std::size_t tried_together = 16;
 
+/// A violation, or 0 where it is within what a search keeps to.
+double beyond_tolerance(double violation) { return violation > DesignLog::tolerance ? violation : 0.0; }
+
 constexpr double round_off = 1e-9;  // of a step: a bound that is a multiple of it counts as one
 
 /// Sets a variable to a number of its steps, the nearest within DesignProblem::set_box().
@@ -99,6 +102,7 @@ class StepSearch {
     const bool usable = analysis.usable();
     design.objective = usable ? problem_.objective(analysis) : INFINITY;
     design.constraint_violation = usable ? problem_.violation(analysis) : INFINITY;
+    design.modification_violation = problem_.violation(problem_.modification(x));
     design.analyses = analyses_;
     if (model_ && usable) {
       const Predicted predicted = predict(x);
@@ -110,7 +114,7 @@ class StepSearch {
 
   /// By the model at the exact design.
   struct Predicted {
-    double violation{0.0}, objective{0.0};
+    double modification_violation{0.0}, violation{0.0}, objective{0.0};  ///< violations that are within the tolerance are 0
     auto operator<=>(const Predicted&) const = default;
   };
   Predicted predict(const Eigen::VectorXd& x) const {
@@ -119,15 +123,19 @@ class StepSearch {
       const int i = stepped_[k];
       steps[static_cast<Eigen::Index>(k)] = (problem_.unscaled(x, i) - problem_.unscaled(exact_, i)) / variable(i).step;
     }
-    const double violation = std::max(model_->violation(steps), problem_.violation(problem_.modification(x)));
-    return {violation > DesignLog::tolerance ? violation : 0.0, model_->objective(steps)};
+    const double of_modification = problem_.violation(problem_.modification(x));
+    return {beyond_tolerance(of_modification), beyond_tolerance(std::max(model_->violation(steps), of_modification)), model_->objective(steps)};
   }
   /// Whether the model leaves hope that a design is better than the best.
   bool is_promising(const Eigen::VectorXd& x) const {
     if (!model_) return true;
     const Predicted predicted = predict(x);
     const double violation = std::max(dear_rounding, violation_margin_);
-    if (!is_feasible(best_)) return predicted.violation < best_.constraint_violation + violation;
+    if (!is_feasible(best_)) {
+      const double of_best = beyond_tolerance(best_.modification_violation);
+      if (predicted.modification_violation != of_best) return predicted.modification_violation < of_best;
+      return predicted.violation < best_.constraint_violation + violation;
+    }
     return predicted.violation <= violation && predicted.objective < best_.objective + std::max(dear_rounding * exact_objective_, objective_margin_);
   }
 
@@ -176,7 +184,9 @@ class StepSearch {
   bool is_better(const RoundedDesign& design) const {
     const bool feasible = is_feasible(design);
     if (feasible != is_feasible(best_)) return feasible;
-    return feasible ? design.objective < best_.objective : design.constraint_violation < best_.constraint_violation;
+    if (feasible) return design.objective < best_.objective;
+    return std::pair(beyond_tolerance(design.modification_violation), design.constraint_violation) <
+           std::pair(beyond_tolerance(best_.modification_violation), best_.constraint_violation);
   }
 
   /// Takes the first of these designs that is promising and better than the best, and tells which.

@@ -10,14 +10,15 @@ namespace flankwright {
 
 /// A design on the grinder's steps.
 struct RoundedDesign {
-  Eigen::VectorXd x;                       ///< scaled; variables with a step are multiples of it within their bounds
-  double objective{not_given};             ///< outside units
-  double constraint_violation{not_given};  ///< [-]
-  int analyses{0};                         ///< of the whole scene set, including those that ended at a scene too bad for a worst case
+  Eigen::VectorXd x;                         ///< scaled; variables with a step are multiples of it within their bounds
+  double objective{not_given};               ///< outside units
+  double constraint_violation{not_given};    ///< [-]
+  double modification_violation{not_given};  ///< its part by limits on modifications [-]
+  int analyses{0};                           ///< of the whole scene set, including those that ended at a scene too bad for a worst case
 };
 
 /// Best neighbour of a design on the steps of its variables. The search begins at the corner of the cell of steps around the design that a LocalModel
-/// has least. Single variables and then pairs of them move by one step as long as that helps (feasible first, then the objective). Where the rounded
+/// has least. Single variables and then pairs of them move by one step as long as that helps (feasible first, then the objective; of infeasible designs the one that exceeds the limits on modifications by less: such a design can be ground). Where the rounded
 /// design is then infeasible or worse than the design itself by more than dear_rounding, the other corners are tried, the most promising first, and
 /// single variables and pairs move by up to two steps.
 ///
@@ -31,7 +32,8 @@ RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int
 
 /// What a model that costs less than an analysis says of a design.
 struct StepFigure {
-  double violation{0.0};  ///< [-]; 0 where the design keeps its constraints
+  double modification_violation{0.0};  ///< by limits on modifications, which decide first [-]; 0 where the design keeps them
+  double violation{0.0};               ///< by any constraint [-]; 0 where the design keeps all
   double objective{0.0};
   auto operator<=>(const StepFigure&) const = default;
 };

@@ -121,7 +121,7 @@ class OptimiseRun {
     const auto add = [this](const char* name, const char* why, double seconds) {
       if (seconds > 0.0) results_.steps.push_back({name, why, seconds});
     };
-    add("prediction", "the statistic from draws that the search has not seen", scatter.predicted.seconds);
+    add("prediction", "statistics from draws that the search has not seen", scatter.prediction_seconds);
     add("fresh_draws", "the designs on further draws", scatter.fresh_seconds);
     if (!scatter.classes.empty()) add("tolerance_classes", "the right design of each class", scatter.classes_seconds);
     found_.design.after = report_design(problem, problem.analyse_design(scatter.design.modification));
@@ -132,6 +132,8 @@ class OptimiseRun {
 
   void add_unmet_over_draws() {
     const ScatterDesign& design = found_.scatter->design;
+    for (std::string& exceeded : limits_exceeded_over_draws(*found_.scatter, found_.task, results_.study.table<OptimiseTable>().scatter.statistic))
+      results_.requirements.push_back(std::move(exceeded));
     if (design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled) return;
     results_.requirements.push_back(fmt::format("the search over the draws ended early ({}): {}", to_string(design.status), design.message));
   }

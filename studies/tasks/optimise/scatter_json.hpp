@@ -21,6 +21,8 @@ std::string scatter_summary(const ScatterResult& result, const DesignTask& task,
 
 /// The statistic in words: "95 % quantile", "mean + 2 sigma", "mean of the worst 10 %".
 std::string statistic_in_words(const Aggregation& statistic);
+/// The statistic of an output that a constraint bounds: of a lower limit "the 5 % quantile", where that of an upper one is "the 95 % quantile".
+std::string statistic_in_words(const Aggregation& statistic, const OutputConstraint& of);
 /// The statistic by which choices of what to grind were judged; empty where they were judged by the listed scenes.
 std::string statistic_of_choices(const StudyResults& results);
 

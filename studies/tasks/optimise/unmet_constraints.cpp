@@ -4,6 +4,7 @@
 
 #include "optimize/design/search/design_log.hpp"
 #include "studies/base/plain_names.hpp"
+#include "studies/tasks/optimise/scatter_json.hpp"
 
 namespace flankwright::studies {
 
@@ -40,6 +41,20 @@ void add_unmet_by_design(const DesignProblem& problem, const OptimiseTable& aske
     unmet.push_back(fmt::format("the optimisation ended early ({}): {}", to_string(design.status), design.message));
   }
   for (std::string& constraint : violated_constraints(problem, asked, design.after)) unmet.push_back(std::move(constraint));
+}
+
+std::vector<std::string> limits_exceeded_over_draws(const ScatterResult& result, const DesignTask& task, const Aggregation& statistic) {
+  std::vector<std::string> exceeded;
+  for (std::size_t c = 0; c < result.predicted_limits.size(); ++c) {
+    const OutputConstraint& limit = task.constraints[c];
+    const PredictedStatistic& predicted = result.predicted_limits[c];
+    const double bound = bound_over_draws(limit, statistic).limit;
+    if (!(predicted.value > (1.0 + told_apart) * bound)) continue;
+    exceeded.push_back(fmt::format("{} of {} over drawn gears does not keep {} {:.4g}{}: {:.4g} is predicted from draws that the search has not seen",
+                                   statistic_in_words(statistic, limit), plain_name(limit.output.name), limit.is_least() ? ">=" : "<=",
+                                   of_output(limit, bound), behind_number(limit.output.unit()), of_output(limit, predicted.value)));
+  }
+  return exceeded;
 }
 
 }  // namespace flankwright::studies

@@ -6,11 +6,18 @@ const scatter_of = (optimise) => (is_number(record(optimise.scatter).value) ? re
 /** The statistic of a design ("before", "without scatter", "after") over fresh draws; null without them. */
 const fresh_statistic = (scatter, design) => list(record(scatter.fresh).designs).map(record).find(({ name }) => name === design)?.statistic ?? null;
 
-/** Limits of the statistic that the design exceeds, the most exceeded first. */
+/** The best known statistic of what a limit bounds: what is predicted, or that over the draws of the search. */
+const known_value = (limit) => record(limit.predicted).value ?? limit.value;
+
+/** Limits of the statistic that the design exceeds, the most exceeded first: over the draws of the search, or by a prediction by more than draws tell apart. */
 function exceeded_over_draws(scatter) {
-  const excess = (limit) => (is_least(limit) ? limit.min - limit.value : limit.value - limit.max) / Math.abs(bound_of(limit) || 1);
-  // Slack for the last digit that the results store, not for the solver.
-  return list(scatter.constraints).map(record).filter((limit) => is_number(limit.value) && is_number(bound_of(limit)) && excess(limit) > 1e-5).sort((a, b) => excess(b) - excess(a));
+  const excess = (limit, value) => (is_least(limit) ? limit.min - value : value - limit.max) / Math.abs(bound_of(limit) || 1);
+  // Slack for the last digit that the results store, not for the solver; of a prediction what the search leaves.
+  const stored = 1e-5, told_apart = 2.5e-3;
+  const is_beyond = (limit, value, slack) => is_number(value) && excess(limit, value) > slack;
+  return list(scatter.constraints).map(record)
+    .filter((limit) => is_number(bound_of(limit)) && (is_beyond(limit, limit.value, stored) || is_beyond(limit, record(limit.predicted).value, told_apart)))
+    .sort((a, b) => excess(b, known_value(b)) - excess(a, known_value(a)));
 }
 
 const is_least = (limit) => is_number(limit.min), bound_of = (limit) => (is_least(limit) ? limit.min : limit.max);
@@ -19,7 +26,7 @@ const bound_words = (limit) => `${is_least(limit) ? "at least" : "at most"} ${fm
 
 /** "the 95 % quantile of peak-to-peak TE over drawn gears to at most 0.9 µm: 3.15 µm" */
 const drawn_limit_words = (scatter, limit) =>
-  `${drawn_statistic(scatter, limit)} of ${words(limit.name)} over drawn gears to ${in_unit(bound_words(limit), pretty_unit(limit.unit))}: ${in_unit(fmt(limit.value, 3), pretty_unit(limit.unit))}`;
+  `${drawn_statistic(scatter, limit)} of ${words(limit.name)} over drawn gears to ${in_unit(bound_words(limit), pretty_unit(limit.unit))}: ${in_unit(fmt(known_value(limit), 3), pretty_unit(limit.unit))}`;
 
 /** "the 95 % quantile"; of a lower limit the quantile from below, and any other statistic by the reciprocal. */
 function drawn_statistic(scatter, limit) {
@@ -28,6 +35,10 @@ function drawn_statistic(scatter, limit) {
   return level ? `the ${fmt(100 - Number(level[1]), 4)} % quantile` : `the reciprocal of the ${scatter.statistic_in_words} of 1/value`;
 }
 
+/** The best known statistic of the design, and of the one found without scatter, over the same draws: fresh ones, those of the prediction, or those of the search. */
+const statistic_of_design = (scatter) => fresh_statistic(scatter, "after") ?? record(scatter.predicted).value ?? scatter.value;
+const statistic_without_scatter = (scatter) => fresh_statistic(scatter, "without scatter") ?? record(scatter.without_scatter).predicted ?? record(scatter.without_scatter).value;
+
 /** "95 % quantile of peak contact stress over drawn gears: 4550 → 1590 MPa (−65 %)"; without fresh draws beside the design that was searched without scatter. */
 function scatter_headline(optimise, scatter) {
   const [exceeded] = exceeded_over_draws(scatter);
@@ -35,21 +46,21 @@ function scatter_headline(optimise, scatter) {
   const unit = pretty_unit(scatter.unit), before = fresh_statistic(scatter, "before"), after = fresh_statistic(scatter, "after");
   const subject = capital(`${scatter.statistic_in_words} of ${words(optimise.objective_name)} over drawn gears`), change = (from, to) => (percent_change(from, to) ? ` (${percent_change(from, to)})` : "");
   if (is_number(before) && is_number(after)) return `${subject}: ${fmt(before, 3)} → ${fmt(after, 3)} ${unit}${change(before, after)}`;
-  const without = record(scatter.without_scatter).value;
-  return `${subject}: ${fmt(scatter.value, 3)} ${unit}${is_number(without) ? `, ${fmt(without, 3)} ${unit} with the design found without scatter${change(without, scatter.value)}` : ""}`;
+  const found = statistic_of_design(scatter), without = statistic_without_scatter(scatter);
+  return `${subject}: ${fmt(found, 3)} ${unit}${is_number(without) ? `, ${fmt(without, 3)} ${unit} with the design found without scatter${change(without, found)}` : ""}`;
 }
 
 /** What was minimised over drawn gears, and its limits: facts for the first screen. */
 function drawn_facts(scatter) {
-  const unit = pretty_unit(scatter.unit), predicted = record(scatter.predicted), before = fresh_statistic(scatter, "before"), after = fresh_statistic(scatter, "after");
+  const unit = pretty_unit(scatter.unit), predicted = record(scatter.predicted), before = fresh_statistic(scatter, "before");
   const between = is_number(predicted.low) && is_number(predicted.high) ? `, between ${fmt(predicted.low, 4)} and ${fmt(predicted.high, 4)}` : "";
   const exceeded = exceeded_over_draws(scatter);
   return [
     is_number(before) ? ["Drawn gears, before", `${fmt(before, 4)} ${unit}`] : null,
-    ["Without scatter in the search", `${fmt(fresh_statistic(scatter, "without scatter") ?? record(scatter.without_scatter).value, 4)} ${unit}`],
-    ["With scatter in the search", `${fmt(after ?? scatter.value, 4)} ${unit}`],
+    ["Without scatter in the search", `${fmt(statistic_without_scatter(scatter), 4)} ${unit}`],
+    ["With scatter in the search", `${fmt(statistic_of_design(scatter), 4)} ${unit}`],
     is_number(predicted.value) ? ["Predicted", `${fmt(predicted.value, 4)}${between} ${unit}`] : null,
-    ...list(scatter.constraints).map(record).map((limit) => [`${capital(words(limit.name))}, drawn gears`, `${in_unit(fmt(limit.value, 3), pretty_unit(limit.unit))}, ${bound_words(limit)}`,
+    ...list(scatter.constraints).map(record).map((limit) => [`${capital(words(limit.name))}, drawn gears`, `${in_unit(fmt(known_value(limit), 3), pretty_unit(limit.unit))}, ${bound_words(limit)}`,
       exceeded.includes(limit) ? "bad" : "good"]),
   ];
 }
@@ -78,20 +89,20 @@ function build_tolerances(results, body) {
     ? ` With ${fmt(100 * predicted.confidence, 3)} % confidence it lies between ${fmt(predicted.low, 4)} and ${fmt(predicted.high, 4)} ${unit}.` : "";
   table(body, {
     title: `${capital(`${scatter.statistic_in_words}`)} over the draws`,
-    note: `${fmt(scatter.draws, 5)} draws, the same for every design; the search took ${fmt(scatter.seconds, 2)} s, that without scatter before it ${fmt(without.seconds, 2)} s. Over the draws of the search its own design is the best of many, and so a little better than others will be.${load_cases_of_draw(scatter)}`
+    note: `${fmt(scatter.draws, 5)} draws, the same for every design; the search took ${fmt(scatter.seconds, 2)} s, that without scatter before it ${fmt(without.seconds, 2)} s. Over the draws of the search its own design is the best of many, and better than it will be over others.${load_cases_of_draw(scatter)}`
       + (is_number(predicted.value) ? ` The prediction is from ${fmt(predicted.draws, 5)} draws that the search has not seen.${interval}` : "")
       + (is_number(fresh.prediction_error_percent) ? ` Beside ${fmt(fresh.draws, 5)} fresh draws it is ${fmt(Math.abs(fresh.prediction_error_percent), 2)} % off.` : ""),
     columns: [{ label: "Design" }, { label: "Draws of the search" }, { label: "Predicted" }, { label: "Fresh draws" }, { label: "Unit" }],
-    rows: [["without scatter", without.value, null, "without scatter"], ["with scatter", scatter.value, predicted.value, "after"]].map(([label, value, expected, name]) =>
+    rows: [["without scatter", without.value, without.predicted, "without scatter"], ["with scatter", scatter.value, predicted.value, "after"]].map(([label, value, expected, name]) =>
       [label, value ?? null, expected ?? null, list(fresh.designs).map(record).find((design) => design.name === name)?.statistic ?? null, unit]),
   });
   const limits = list(scatter.constraints).map(record), exceeded = exceeded_over_draws(scatter).map(({ name }) => name);
   if (limits.length > 0) {
     table(body, {
       title: "Limits over the draws",
-      note: "Each limit holds for a statistic over the draws.",
-      columns: [{ label: "Output" }, { label: "Statistic" }, { label: "Value" }, { label: "Limit" }, { label: "Unit" }, { label: "" }],
-      rows: limits.map((limit) => [words(limit.name), drawn_statistic(scatter, limit), limit.value, bound_words(limit), pretty_unit(limit.unit),
+      note: "Each limit holds for a statistic over the draws. Where the prediction exceeded a limit, the search went on with a tighter one.",
+      columns: [{ label: "Output" }, { label: "Statistic" }, { label: "Draws of the search" }, { label: "Predicted" }, { label: "Limit" }, { label: "Limit of the search" }, { label: "Unit" }, { label: "" }],
+      rows: limits.map((limit) => [words(limit.name), drawn_statistic(scatter, limit), limit.value, record(limit.predicted).value ?? null, bound_words(limit), limit.searched_limit ?? null, pretty_unit(limit.unit),
         exceeded.includes(limit.name) ? { text: "exceeded", class: "bad" } : { text: "kept", class: "" }]),
     });
   }
@@ -100,15 +111,19 @@ function build_tolerances(results, body) {
   if (classes.length === 0) return;
   table(body, {
     title: "What a class costs",
-    note: "Each row is the design that is right for its class. All figures are the statistic over the draws of that class.",
-    columns: [{ label: "ISO 1328-1 class" }, { label: `Objective [${unit}]` }, { label: `Of the design without scatter [${unit}]` }, { label: "Peak contact stress [MPa]" }, { label: "Transmission error, peak to peak [µm]" }],
-    rows: classes.map((row) => [row.iso_1328_class, row.value, row.without_scatter_value, row.peak_contact_stress_MPa, row.te_peak_to_peak_um]),
+    note: "Each row is the design that is right for its class, or the nearest found where none keeps the limits. All figures are the statistic over the draws of that class.",
+    columns: [{ label: "ISO 1328-1 class" }, { label: "Limits" }, { label: `Objective [${unit}]` }, { label: `Of the design without scatter [${unit}]` }, { label: "Peak contact stress [MPa]" }, { label: "Transmission error, peak to peak [µm]" }],
+    rows: classes.map((row) => [row.iso_1328_class, keeps_limits(row) ? { text: "kept", class: "" } : { text: "exceeded", class: "bad" }, row.statistic_value ?? row.value, row.without_scatter_value, row.peak_contact_stress_MPa, row.te_peak_to_peak_um]),
   });
   const grid = figure_grid(body);
   for (const [key, title] of [["peak_contact_stress_MPa", "Peak contact stress [MPa]"], ["te_peak_to_peak_um", "Transmission error, peak to peak [µm]"]]) {
-    figure(grid, { title, caption: "Statistic over the draws of each class, of the design that is right for it." }, (plot) => class_plot(plot, classes, key));
+    const hollow = classes.every(keeps_limits) ? "" : " Hollow marks: no design of the class was found that keeps the limits.";
+    figure(grid, { title, caption: `Statistic over the draws of each class, of the design that is right for it.${hollow}` }, (plot) => class_plot(plot, classes, key));
   }
 }
+
+/** Whether the design of a class keeps the limits over the draws, also of the prediction. */
+const keeps_limits = (row) => row.status !== "infeasible" && exceeded_over_draws(row).length === 0;
 
 /** The figure of each class as a line with marks. */
 function class_plot(plot, classes, key) {
@@ -131,7 +146,7 @@ function class_plot(plot, classes, key) {
   pen.beginPath();
   known.forEach((row, i) => (i === 0 ? pen.moveTo(to_x(grades[i]), to_y(values[i])) : pen.lineTo(to_x(grades[i]), to_y(values[i]))));
   pen.stroke();
-  known.forEach((row, i) => pen.fillRect(to_x(grades[i]) - 3, to_y(values[i]) - 3, 6, 6));
+  known.forEach((row, i) => (keeps_limits(row) ? pen.fillRect(to_x(grades[i]) - 3, to_y(values[i]) - 3, 6, 6) : pen.strokeRect(to_x(grades[i]) - 4, to_y(values[i]) - 4, 8, 8)));
   plot.append(canvas);
 }
 

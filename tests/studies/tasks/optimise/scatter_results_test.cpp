@@ -8,6 +8,7 @@
 #include "studies/results/tables.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "studies/tasks/optimise/optimise_results.hpp"
+#include "studies/tasks/optimise/unmet_constraints.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_file/life_texts.hpp"
 #include "tests/studies/study_texts.hpp"
@@ -85,7 +86,7 @@ TEST_CASE("A draw runs through all operating states, and results count draws", "
   CHECK(scatter["load_cases_of_a_draw"] == 2);
   CHECK(scatter["draws"] == 24);
   CHECK(optimise["validation"]["samples"] == 24);
-  CHECK_THAT(summary_table(results), Contains("over 24 draws, each in 2 operating states (aligned, coast), the worst of which counts"));
+  CHECK_THAT(summary_table(results), Contains("over 24 draws of the search, each in 2 operating states (aligned, coast), the worst of which counts"));
   // The coast state has the larger torque: aligned, it has less stress than nine of ten drawn gears have in the worst of both.
   double aligned_coast = 0.0;
   for (const Json& scene : optimise["scenes"]) {
@@ -126,6 +127,38 @@ predicted_from = 0
   CHECK(optimise["validation"]["designs"][1]["greatest"].get<double>() == Approx(scatter["value"].get<double>()).epsilon(1e-4));
   const Json moved = results_of(study("4"))["optimise"]["scatter"];
   CHECK(moved["value"].get<double>() > 1.05 * scatter["value"].get<double>());
+}
+
+TEST_CASE("A limit on a statistic is kept over gears that the search has not seen", "[studies][scatter]") {
+  constexpr double most = 2700.0;
+  const Json scatter = study_texts::results_of(drawn_study(), {{"optimise.objective", "\"te_peak_to_peak\""},
+                                                               {"optimise.constraints.peak_contact_stress", "{ max = 2700 }"},
+                                                               {"optimise.scatter.seed", "4"},
+                                                               {"optimise.scatter.predicted_from", "400"}})["optimise"]["scatter"];
+  const Json& limit = scatter["constraints"][0];
+  CAPTURE(limit.dump());
+  REQUIRE(scatter["status"] == "converged");
+  CHECK(limit["predicted"]["value"].get<double>() <= (1.0 + told_apart) * most);
+  // The gears of the search are better than others: it kept to a tighter limit.
+  CHECK(limit["searched_limit"].get<double>() < most);
+  CHECK(limit["value"].get<double>() <= limit["searched_limit"].get<double>() * (1.0 + 1e-6));  // the tolerance of the search
+}
+
+TEST_CASE("A limit that the prediction exceeds is said not to be kept", "[studies][scatter]") {
+  const Aggregation statistic{Aggregate::Quantile, 2.0, 0.95};
+  DesignTask task;
+  task.constraints = {{.output = *find_term("peak_contact_stress"), .maximum = 1500.0},
+                      {.output = *find_term("specific_film_thickness"), .minimum = 0.5}};
+  ScatterResult result;
+  const auto sentences = [&](double stress, double reciprocal) {
+    result.predicted_limits = {{.value = stress}, {.value = reciprocal}};
+    return limits_exceeded_over_draws(result, task, statistic);
+  };
+  CHECK(sentences(1502.0, 1.9).empty());
+  const std::vector<std::string> both = sentences(1700.0, 2.5);
+  REQUIRE(both.size() == 2);
+  CHECK_THAT(both[0], Contains("the 95 % quantile of peak contact stress over drawn gears does not keep <= 1500 MPa: 1700 is predicted"));
+  CHECK_THAT(both[1], Contains("the 5 % quantile of ") && Contains(">= 0.5: 0.4 is predicted"));
 }
 
 TEST_CASE("A class has the same design whatever the list, and the study's own class has the study's design", "[studies][scatter]") {
