@@ -261,9 +261,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results, bool w
 }
 
 /// How the working flank of a gear differs from the involute by generation, modification and grid, as a map; nothing where it does not.
-/// @param process  that the study names; an analysis is without it where it leaves no trace on the flank
-void add_topography(const GearPair& pair, Member member, const Modification& modification, GrindingKind process, const std::string& design,
-                    Json& maps) {
+void add_topography(const GearPair& pair, Member member, const Modification& modification, const std::string& design, Json& maps) {
   const Gear& gear = pair[member];
   const Flank flank = make_flank(pair, member, modification, {});
   Json z = Json::array(), radius = Json::array(), removal_um = Json::array();
@@ -286,7 +284,7 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
   maps.push_back({{"gear", name_of(member)},
                   {"flank", name_of(pair.data.working_flank)},
                   {"design", design},
-                  {"process", to_string(process)},
+                  {"process", to_string(modification.process.kind)},
                   {"natural_twist_um", in_um(natural_twist(pair, member, modification))},
                   {"contact_shift_mm", contact_shift_over_profile(pair, member, modification.process)},
                   {"z_mm", std::move(z)},
@@ -300,11 +298,9 @@ Json modifications_json(const StudyResults& results) {
   const GearPair& own = results.pair;
   const bool works_on_others = std::ranges::any_of(results.loaded, [](const LoadedResult& loaded) { return loaded.condition.other_flanks; });
   const auto add_both = [&](const PerGear<Modification>& modification, const std::string& design) {
-    const auto process = [&](Member m) { return results.study.modification[m].process.kind; };
-    for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(own, m, modification[m], process(m), design, maps);
+    for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(own, m, modification[m], design, maps);
     if (!works_on_others) return;
-    for (const Member m : {Member::Pinion, Member::Wheel})
-      add_topography(own.on_other_flanks(), m, on_opposite_flank(modification[m]), process(m), design, maps);
+    for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(own.on_other_flanks(), m, on_opposite_flank(modification[m]), design, maps);
   };
   for (const ShownDesign& design : results.designs) add_both(design.modification, design.name);
   if (results.designs.empty()) add_both(analysed_modification(results.study, results.effects), "given");
