@@ -116,6 +116,31 @@ TEST_CASE("Teeth are not blamed for what soft bearings yield", "[studies][analys
   for (const Json& note : results.at("notes")) CHECK(note.get<std::string>().find("no small deflection") == std::string::npos);
 }
 
+TEST_CASE("Shafts that move the flanks further than teeth can mesh over are a requirement that is not met",
+          "[studies][analysis][unit][requirements]") {
+  // Bearings alike on both sides of a gear at mid span: it moves away from its mate without a tilt. By N/um the teeth mesh, by N/m they do not.
+  const auto soft = [](const std::string& stiffness, double position) {
+    return run_study(parse_study(
+        small::helical_pair() +
+            "compliance = \"thin_slice\"\n[pinion.shaft]\nsections = [{ length = 200, outer_diameter = 50 }]\nbearings = [{ position = 10, radial_stiffness = " +
+            stiffness + " }, { position = 190, radial_stiffness = " + stiffness + " }]\ngear_position = " + std::to_string(position) +
+            "\ntorque_position = 0\n",
+        "soft.toml"));
+  };
+  CHECK(soft("300", 60).requirements.empty());
+  const StudyResults apart = soft("0.001", 100), tilted = soft("0.02", 60);
+  REQUIRE(apart.requirements.size() == 1);
+  CHECK_THAT(apart.requirements.front(), Catch::Contains("the teeth cannot mesh so") && Catch::Contains("working depth"));
+  REQUIRE(tilted.requirements.size() == 1);
+  CHECK_THAT(tilted.requirements.front(), Catch::Contains("the teeth cannot mesh so") && Catch::Contains("300 N·m"));
+  // Motions are in proportion to what bearings yield: a law of its own route, the force over two springs.
+  const std::optional<FlankMotion> motion = largest_flank_motion(apart, apart.loaded.front());
+  REQUIRE(motion);
+  CHECK(motion->excess() > 1.0);
+  const double by_springs = apart.loaded.front().cycle.force * std::cos(apart.pair.base_helix_angle) / (2.0 * 1.0);
+  if (!motion->is_misalignment) CHECK(motion->motion == Approx(by_springs).epsilon(0.05));
+}
+
 TEST_CASE("A key that acts only beside others is said to be unused without them", "[studies][analysis]") {
   const auto is_said = [](const std::string& study, const std::string& key, const std::string& value) {
     const Json results = study_texts::results_of(study, {{key, value}});
