@@ -20,9 +20,9 @@ std::vector<bool> governing_cases(const StudyResults& results);
 /// largest of its design.
 std::vector<bool> most_utilised_cases(const StudyResults& results, const LifeModel& life);
 
-/// Load cases of all designs together up to which a study that says nothing of `output.points` keeps the points of all: each takes 1 to 3 MB of results.json and 0.2 to 0.4 MB of
-/// report.html, so that these stay below about 100 MB and 20 MB, which viewers and mail still take.
-inline constexpr std::size_t most_cases_with_points = 40;
+/// Load cases of all designs together up to which a study that says nothing of `output.points` keeps the points of all. Each takes 1 to 3 MB of results.json and 0.2 to 0.4 MB of
+/// report.html: these then stay below about 300 MB, which programs still read, and 40 MB, which a browser still opens.
+inline constexpr std::size_t most_cases_with_points = 100;
 
 /// `output.points` as the study gives it, else all up to most_cases_with_points and those that govern beyond.
 CasesWithPoints kept_points(const StudyResults& results);
