@@ -11,7 +11,8 @@ namespace flankwright {
 ///
 ///     sum_j y_j grad c_j + sum_i m_i grad h_i + upper bounds - lower bounds = 0,   all of them >= 0,
 ///
-/// c_j the leading candidates of the governing scenes, h_i of bounded outputs, objectives and sums.
+/// c_j the leading candidates of the governing scenes, h_i of bounded outputs, objectives and sums. A limit that the design leaves room has no multiplier, see
+/// Optimality, and is not among them.
 struct Optimum {
   struct Scene {
     int scene{-1};

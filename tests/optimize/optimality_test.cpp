@@ -93,3 +93,46 @@ TEST_CASE("Where the conditions hold no direction descends, and on kinks they ho
   }
   CHECK(on_kinks >= 1);  // which of them is on one, the contact law decides
 }
+
+TEST_CASE("A limit has a multiplier at its optimum and none at a design that leaves it room", "[optimize][design][optimality]") {
+  DesignTask task = helical();
+  task.objective = {term(Output::PeakContactStress)};
+  DesignProblem free(task);
+  const DesignResult lowest = optimise_design(free, SolverOptions{});
+  REQUIRE(lowest.optimality.satisfied());
+  const Eigen::VectorXd x = free.scaled_design(lowest.after.variables);
+  OutputConstraint bound{term(Output::TePeakToPeak)};
+  const double reached = free.constraint_value(lowest.after.analysis, bound);
+  const auto multiplier = [](const Optimality& optimality) {
+    double sum = 0.0;
+    for (const ActiveBound& active : optimality.active) {
+      if (active.variable < 0 && active.row.kind == EpigraphRow::Kind::OutputBound) sum += active.multiplier;
+    }
+    return sum;
+  };
+  // Beside the optimum, where more of the gradient is left for the limit to make up for. The first-order conditions hold to 1e-4 with the limit or without it.
+  int tried = 0;
+  for (const double step : {0.0, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4}) {
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+      const Eigen::VectorXd beside = (x + step * Eigen::VectorXd::Unit(x.size(), i)).cwiseMax(0.0).cwiseMin(1.0);
+      if (!first_order_optimality(free, beside).satisfied()) continue;
+      ++tried;
+      for (const double room : {0.005, 0.01, 0.015}) {
+        bound.maximum = reached * (1.0 + room);
+        DesignTask bounded = task;
+        bounded.constraints = {bound};
+        DesignProblem problem(bounded);
+        CAPTURE(step, i, room);
+        CHECK(multiplier(first_order_optimality(problem, beside)) == 0.0);
+      }
+    }
+  }
+  CHECK(tried > 0);
+  bound.maximum = 0.9 * reached;  // now it is in the way
+  task.constraints = {bound};
+  DesignProblem problem(task);
+  const DesignResult bounded = optimise_design(problem, SolverOptions{});
+  REQUIRE(bounded.optimality.satisfied());
+  REQUIRE(bounded.after.objective > (1.0 + 1e-3) * lowest.after.objective);
+  CHECK(multiplier(bounded.optimality) > 0.0);
+}

@@ -1,6 +1,7 @@
 #include "optimize/design/search/optimality.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -76,17 +77,34 @@ void add_neighbours(EpigraphProgram& program, const Eigen::VectorXd& y, int desi
   }
 }
 
-/// The multipliers that balance best; rows of several gradients count once in `active`.
-Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objective_gradient, int design_variables) {
+/// Whether a row or a bound of a variable is a limit of the task, and not a peak or a part of how the programme is written.
+bool is_limit(const ActiveBound& bound) {
+  using Kind = EpigraphRow::Kind;
+  return bound.variable >= 0 || bound.row.kind == Kind::OutputBound || bound.row.kind == Kind::ObjectiveBound ||
+         bound.row.kind == Kind::ModificationBound;
+}
+
+/// Which rows may have a multiplier: all but the limits that no design is at whose variables differ by at most a share of their ranges, to first order.
+std::vector<bool> rows_within(const std::vector<Near>& near, double share) {
+  std::vector<bool> within;
+  for (const Near& row : near) within.push_back(!is_limit(row.bound) || -row.slack <= share * row.gradient.lpNorm<1>() + DesignLog::tolerance);
+  return within;
+}
+
+/// The multipliers that balance best among those of some rows; rows of several gradients count once in `active`.
+Optimality balance_of(const std::vector<Near>& near, const std::vector<bool>& takes_part, const Eigen::VectorXd& objective_gradient,
+                      int design_variables) {
   const Eigen::Index n = objective_gradient.size();
   const auto m = static_cast<Eigen::Index>(near.size());
-  // Least squares of what is left of the gradient and of each multiplier times its slack.
+  // Least squares of what is left of the gradient and of each multiplier times its slack; rows that take no part are 0.
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, m), free = A;  // free: without the bounds of the variables
-  Eigen::VectorXd slack(m), free_slack = Eigen::VectorXd::Zero(m);
+  Eigen::VectorXd slack = Eigen::VectorXd::Zero(m), free_slack = slack;
   for (Eigen::Index j = 0; j < m; ++j) {
-    A.col(j) = near[static_cast<std::size_t>(j)].gradient;
-    slack[j] = near[static_cast<std::size_t>(j)].slack;
-    if (near[static_cast<std::size_t>(j)].bound.variable >= 0) continue;
+    const auto at = static_cast<std::size_t>(j);
+    if (!takes_part[at]) continue;
+    A.col(j) = near[at].gradient;
+    slack[j] = near[at].slack;
+    if (near[at].bound.variable >= 0) continue;
     free.col(j) = A.col(j);
     free_slack[j] = slack[j];
   }
@@ -113,6 +131,19 @@ Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objecti
   std::stable_sort(result.active.begin(), result.active.end(),
                    [](const ActiveBound& a, const ActiveBound& c) { return a.multiplier > c.multiplier; });
   return result;
+}
+
+/// The multipliers that balance best with the limits of the smallest neighbourhood in which the conditions hold; with all where they hold in none.
+Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objective_gradient, int design_variables) {
+  constexpr std::array shares{Optimality::neighbourhood, 10.0 * Optimality::neighbourhood, 100.0 * Optimality::neighbourhood};
+  std::vector<bool> tried;
+  for (const double share : shares) {
+    std::vector<bool> within = rows_within(near, share);
+    if (within == tried) continue;
+    if (Optimality result = balance_of(near, within, objective_gradient, design_variables); result.satisfied()) return result;
+    tried = std::move(within);
+  }
+  return balance_of(near, std::vector<bool>(near.size(), true), objective_gradient, design_variables);
 }
 
 }  // namespace

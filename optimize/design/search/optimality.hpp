@@ -25,7 +25,16 @@ struct ActiveBound {
 ///     minimise over lambda >= 0   |grad f + J' lambda|^2 + |c lambda|^2
 ///
 /// over all rows and bounds within `reach` of being active, peaks within that of the objective as it is; variables' bounds only where more than 1e-4 remains without
-/// them, so that a bound has no multiplier where multipliers are not unique. f is the objective in units of its start or the root of that, see ObjectiveBlock,
+/// them, so that a bound has no multiplier where multipliers are not unique.
+///
+/// A limit with room has no multiplier at an optimum. The least squares above would give it one all the same: where a search has left r of the gradient along
+/// grad c, the least sum is at lambda = r |grad c| / (|grad c|^2 + c^2), for any room c. So limits on outputs, objectives and modifications and bounds of variables take part only
+/// where a design in the neighbourhood, each variable changed by at most `neighbourhood` of its range, is at them to first order,
+///
+///     -c <= neighbourhood |grad c|_1 + DesignLog::tolerance;
+///
+/// where the conditions do not hold to 1e-4 in this way, in a neighbourhood ten and a hundred times as large, and at last all within `reach`: the conditions of
+/// Goldstein, A., Math. Programming 13 (1977), that designs within a distance of the one at hand satisfy together. f is the objective in units of its start or the root of that, see ObjectiveBlock,
 /// variables are scaled to their ranges.
 ///
 /// Rows bend where a contact point is about to lose or take up load, or the start of a relief passes one; optima like
