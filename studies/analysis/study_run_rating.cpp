@@ -30,6 +30,15 @@ Quadrature rating_quadrature(const Fidelity& fidelity) {
   return quadrature;
 }
 
+/// Half the intervals of the analysis, 12 at most where it chooses them: where an edge begins to touch hangs on the gap and the approach, which few points know.
+Quadrature edge_quadrature(const Fidelity& fidelity) {
+  constexpr int enough = 12;
+  Quadrature quadrature = fidelity.quadrature;
+  quadrature.intervals = std::max(1, quadrature.intervals / 2);
+  if (fidelity.automatic_intervals) quadrature.intervals = std::min(quadrature.intervals, enough);
+  return quadrature;
+}
+
 /// The load cases whose load factors are sought: all, or where only the strength asks for them, as in an optimisation, those that use it most.
 std::vector<LoadedResult*> rated_cases(StudyResults& results) {
   const Study& study = results.study;
@@ -104,9 +113,8 @@ std::optional<EdgeContactStart> StudyRun::edge_contact_of(const LoadedResult& lo
     if (const auto between = edge_contact_start(*loaded.resolved.extreme_mesh, loaded.condition, loaded.torque, gear, known)) start = between;
   }
   if (!start || !results_.study.cycle.phases.empty()) return start;
-  Quadrature quadrature = results_.study.fidelity.quadrature;
-  quadrature.intervals = std::max(1, quadrature.intervals / 2);
-  return edge_contact_start_near(mesh_at(loaded.condition, loaded.torque, true, {}, quadrature), loaded.condition, loaded.torque, *start, spacing);
+  const MeshAt mesh = mesh_at(loaded.condition, loaded.torque, true, {}, edge_quadrature(results_.study.fidelity));
+  return edge_contact_start_near(mesh, loaded.condition, loaded.torque, *start, spacing);
 }
 
 void StudyRun::find_edge_contact() {
