@@ -63,11 +63,11 @@ std::vector<UnvariedAmount> unvaried_amounts(const DesignTask& task, PerGear<Mod
   return found;
 }
 
-/// The limits that the rows of judged_by_excess() stand for, its upper bounds on outputs and then those on objectives, with their multipliers.
+/// The limits that the rows of judged_by_excess() stand for, those on outputs and then those on objectives, with their multipliers.
 std::vector<Relaxation::Limit> exceeded_limits(const DesignTask& task, const Optimality& optimality) {
   std::vector<Relaxation::Limit> of_row;
   for (int c = 0; c < static_cast<int>(task.constraints.size()); ++c) {
-    if (!task.constraints[static_cast<std::size_t>(c)].is_least()) of_row.push_back({.constraint = c});
+    if (task.constraints[static_cast<std::size_t>(c)].has_smooth_excess()) of_row.push_back({.constraint = c});
   }
   for (int b = 0; b < static_cast<int>(task.objective_bounds.size()); ++b) of_row.push_back({.objective_bound = b});
   std::map<int, double> multipliers, of_scenes;    // of a row: its own and the sum over its scenes

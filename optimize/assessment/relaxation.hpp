@@ -6,7 +6,7 @@
 
 namespace flankwright {
 
-/// What would help where no design within the bounds of its variables keeps the upper bounds on outputs: the first-order conditions of the design
+/// What would help where no design within the bounds of its variables keeps the bounds on outputs: the first-order conditions of the design
 /// that exceeds them by least, DesignProblem::judged_by_excess(), say which limits hold the excess up and what would lower it.
 struct Relaxation {
   /// A limit that holds the excess up in a scene. The weights of all sum to one.
@@ -25,7 +25,7 @@ struct Relaxation {
     /// Whether a bound of a variable moves out; else the modification is not among the variables.
     bool moves_bound() const { return parameter.variable >= 0; }
   };
-  double excess{not_given};   ///< the least one [-, relative to the limit]
+  double excess{not_given};   ///< the least one found [-, relative to the limit]
   std::vector<Limit> limits;  ///< heaviest first
   std::vector<Move> moves;    ///< largest gain first
 };
@@ -33,8 +33,8 @@ struct Relaxation {
 /// Amounts that are not varied are tried from the value that the design has: crowning and relief towards more metal removed, slopes either way.
 /// An amount without an extent is spread as rules_of_thumb() would, end relief over the smaller of 0.1 b and m_n, tip relief from the pitch point.
 /// Root relief without an extent is left out, because tip relief of the mate does the same; so are topography shapes and the parabola.
-/// @param problem  with upper bounds, see has_upper_bounds()
-/// @param design   the one that exceeds them by least; its load distributions converge
+/// @param problem  with bounds that can be exceeded by more or less, see has_smooth_excess()
+/// @param design   the nearest one found, of which the excess is least among its neighbours; its load distributions converge
 /// @param values   of the design variables [mm; parabolic_te 1/rad]
 Relaxation find_relaxation(const DesignProblem& problem, const PerGear<Modification>& design, const std::vector<double>& values);
 

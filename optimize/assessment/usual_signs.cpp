@@ -96,6 +96,7 @@ std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const D
   limited.set_start(limited.nearest_design(best.variables));
   DesignOptions options;
   options.to_grind = false;
+  options.shows_nearest = false;
   options.solver.max_seconds = max_seconds;
   DesignResult result = optimise_by_two_levels(limited, options).design;
   found.is_out_of_time = result.status == SolverStatus::TimeLimit;

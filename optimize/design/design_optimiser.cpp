@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/search/least_excess.hpp"
 
 namespace flankwright {
 
@@ -28,6 +29,9 @@ void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& mor
 /// No multipliers are looked for where a search was stopped at a design that exceeds a constraint by more than this part of its limit. Thousands of rows may
 /// be broken there, and such a design is no optimum.
 constexpr double far_outside = 0.1;
+
+/// The least excess is sought from so many designs at least besides the nearest known, the starts of the study among them: every search is a local one.
+constexpr int starts_by_excess = 5;
 
 /// The whole run, its books and what is left of the budget.
 class DesignRun {
@@ -70,6 +74,7 @@ class DesignRun {
   bool is_spent() const { return result_.evaluations >= options_.solver.max_evaluations || clock_.seconds() >= options_.solver.max_seconds; }
 
   void take(const LocalRun& run) {
+    violation_met_ = run.constraint_violation;
     result_.status = run.status;
     result_.message = run.message;
     result_.finished_by = run.finished_by;
@@ -103,45 +108,48 @@ class DesignRun {
     take(best);
   }
 
-  /// Whether a design is beyond limits that judged_by_excess() knows.
+  /// Whether a design is beyond limits so that the least excess is to be sought. Where a design beyond them is of no use, a search for the objective has
+  /// looked for lower bounds long enough.
   bool exceeds(const Eigen::VectorXd& x) {
-    return problem_.has_upper_bounds() && problem_.violation(problem_.analyse(x, false)) > DesignLog::tolerance;
+    const bool seeks_excess = options_.shows_nearest ? problem_.has_smooth_excess() : problem_.has_upper_bounds();
+    return seeks_excess && problem_.violation(problem_.analyse(x, false)) > DesignLog::tolerance;
+  }
+
+  /// Starts of searches for the least excess beside the nearest design known: those of the study, and as many more as make `starts_by_excess`. None where a run
+  /// before has had them.
+  std::vector<Eigen::VectorXd> further_starts() const {
+    if (options_.nearest_first || !options_.shows_nearest) return {};
+    std::vector<Eigen::VectorXd> starts = space_filling_starts(problem_.start(), std::max(options_.starts, starts_by_excess), options_.solver.seed);
+    std::erase_if(starts, [&](const Eigen::VectorXd& x) { return x == x_; });
+    return starts;
   }
 
   /// Where no design that keeps the constraints was met: seeks the one that exceeds them by least, and goes on from there where that keeps them.
   void restore() {
-    if (!exceeds(x_) || is_spent()) return;
-    double excess = problem_.violation(problem_.analyse(x_, false));
-    const auto count = [&](const LocalRun& run) {
-      result_.evaluations += run.evaluations;
-      result_.failures += run.failures;
-    };
-    DesignProblem by_excess = problem_.judged_by_excess();
-    by_excess.set_start(x_);
+    const bool keeps_lower_bounds = !problem_.has_upper_bounds() && violation_met_ <= DesignLog::tolerance;  // needs no analysis of its own
+    if (keeps_lower_bounds || !exceeds(x_) || is_spent()) return;
     SolverOptions options = search_options();
     if (options_.solver.progress) {
       options.progress = [&, before = result_.evaluations](int analyses, double) { options_.solver.progress(before + analyses, not_given); };
     }
-    const LocalRun nearest = run_local(by_excess, options);
-    count(nearest);
-    const DesignAnalysis here = problem_.analyse(x_, false), there = problem_.analyse(nearest.x, false);
-    if (is_nearer(problem_, there, here)) {
-      x_ = nearest.x;
-      excess = problem_.violation(there);
-      append(result_.history, {{nearest.evaluations, problem_.objective(there), excess}});
-    }
-    if (!(excess > DesignLog::tolerance) && !is_spent()) {
+    const LeastExcess nearest = seek_least_excess(problem_, x_, {options, further_starts(), options_.shows_nearest});
+    result_.evaluations += nearest.evaluations;
+    result_.failures += nearest.failures;
+    append(result_.history, nearest.history);
+    x_ = nearest.x;
+    if (!(nearest.excess > DesignLog::tolerance) && !is_spent()) {
       DesignProblem again = problem_;
       again.set_start(x_);
       const LocalRun run = run_local(again, search_options());
-      count(run);
+      result_.evaluations += run.evaluations;
+      result_.failures += run.failures;
       take(run);
       return;
     }
-    if (nearest.status != SolverStatus::Converged && nearest.status != SolverStatus::Stalled) return;
+    if (!nearest.ended_well) return;
     result_.status = SolverStatus::Infeasible;
     const bool keeps_bounds = problem_.violation(problem_.analyse(x_, false).modification) <= DesignLog::tolerance;
-    result_.message = keeps_bounds ? message_of_excess(excess) : "no design that keeps the limits on modifications was found";
+    result_.message = keeps_bounds ? message_of_excess(nearest.excess) : "no design that keeps the limits on modifications was found";
   }
 
   /// The problem of the last objective, at x_.
@@ -174,6 +182,7 @@ class DesignRun {
   const Stopwatch clock_;
   DesignResult result_;
   Eigen::VectorXd x_;
+  double violation_met_{not_given};  ///< at x_, as the search that found it has recorded it [-]
 };
 
 }  // namespace
@@ -184,7 +193,7 @@ double relative_increase(double from, double to) {
 }
 
 std::string message_of_excess(double excess) {
-  return "no design that keeps the constraints was found; this one exceeds them by least, " + in_percent(excess);
+  return "no design that keeps the constraints was found; the nearest found exceeds them by " + in_percent(excess);
 }
 
 DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages) {

@@ -82,11 +82,14 @@ struct DesignOptions {
   /// Begins with the design that exceeds the constraints by least, because a run before met none that keeps them. The objective is searched only where that
   /// design keeps them.
   bool nearest_first{false};
+  /// Whether a design is of use that exceeds the constraints, so that the nearest one is worth a search from several starts. Otherwise, limits that are exceeded are
+  /// only sought to be kept from the best design met.
+  bool shows_nearest{true};
   bool to_grind{true};  ///< false: the exact optimum is left as it is, without steps and grinding limits
 };
 
-/// Chooses the modifications of a task: from all starts (run_from_starts()), or, where none meets a design that keeps the constraints, the one that
-/// exceeds them by least (DesignProblem::judged_by_excess()); then the later objectives of a list from the best
+/// Chooses the modifications of a task: from all starts (run_from_starts()), or, where none meets a design that keeps the constraints, the nearest one that
+/// is found (seek_least_excess()); then the later objectives of a list from the best
 /// design on, each under limits on those before it, then what can be ground of it (design_to_grind()).
 /// @throws InvalidInput for an unknown solver or one that cannot take the task's constraints
 DesignResult optimise_design(DesignProblem& problem, const DesignOptions& options);

@@ -154,6 +154,9 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
   add_first_run(coarse, starts);
   result.fine.cycles = problem.cycles() - cycles_before;
   go_on_from_best(problem, options, starts, result);
+  const bool is_out_of_limits = result.design.status == SolverStatus::Infeasible && coarse.status != SolverStatus::Infeasible;
+  if (is_out_of_limits && options.shows_nearest)  // only here: the coarse search has not sought the nearest design
+    go_on_from_best(problem, options, {problem.nearest_design(result.design.after.variables)}, result);
   result.fine.seconds = fine_clock.seconds();
   result.design.seconds = clock.seconds();
   return result;
@@ -168,6 +171,7 @@ void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign&
   finish.solver.tolerance = std::max(options.solver.tolerance, fine_tolerance);
   finish.most_search_analyses = most_fine_analyses;
   finish.nearest_first = found.design.status == SolverStatus::Infeasible;
+  finish.shows_nearest = options.shows_nearest && finish.nearest_first;
   const std::int64_t cycles_before = problem.cycles();
   DesignResult fine = optimise_design(problem, finish);
   found.fine.cycles += problem.cycles() - cycles_before;

@@ -8,6 +8,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/design_programs_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/design_tasks.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grindable_design_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/least_excess_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/life_outputs_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/mesh_store_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/multi_start_test.cpp

@@ -141,20 +141,32 @@ DesignProblem DesignProblem::over_scenes(const std::vector<int>& scenes) const {
 
 DesignProblem DesignProblem::judged_by_excess() const {
   std::vector<ScalarisedObjective> excesses;
-  std::vector<OutputConstraint> lower_bounds;
+  std::vector<OutputConstraint> others;
   for (const OutputConstraint& bound : task_.constraints) {
-    if (bound.is_least()) {  // of what is the least of several functions likewise: it is kept as a constraint
-      lower_bounds.push_back(bound);
+    if (!bound.has_smooth_excess()) {
+      others.push_back(bound);
       continue;
     }
-    const double limit = bound.maximum * bound.output.outside_factor();
     ObjectiveTerm output = bound.output;
     output.weight = 1.0;
-    excesses.push_back({{{output}, Aggregate::Worst}, limit, std::abs(limit)});
+    output.reciprocal = bound.is_least();
+    const double limit = (bound.is_least() ? 1.0 / bound.minimum : bound.maximum) * output.outside_factor();
+    excesses.push_back({{{output}, Aggregate::Worst}, limit, std::abs(limit), bound.is_least()});
   }
   for (const ObjectiveBound& bound : task_.objective_bounds) excesses.push_back({bound.objective, bound.limit, bound.limit});
   DesignProblem other = judged_by(task_.combined_objective(), {}, std::move(excesses));
-  other.task_.constraints = std::move(lower_bounds);
+  other.task_.constraints = std::move(others);
+  return other;
+}
+
+DesignProblem DesignProblem::with_wider_bounds(double share) const {
+  DesignProblem other = *this;
+  for (OutputConstraint& bound : other.task_.constraints) {
+    double& limit = bound.is_least() ? bound.minimum : bound.maximum;
+    limit += (bound.is_least() ? -share : share) * std::abs(limit);
+  }
+  for (ObjectiveBound& bound : other.task_.objective_bounds) bound.limit *= 1.0 + share;
+  other.analyses_ = 0;
   return other;
 }
 
@@ -296,7 +308,7 @@ double DesignProblem::objective(const DesignAnalysis& analysis) const {
   if (task_.scalarisation.empty()) return value(task_.combined_objective(), analysis);
   double largest = -INFINITY;
   for (const ScalarisedObjective& scalarised : task_.scalarisation) {
-    largest = std::max(largest, (value(scalarised.objective, analysis) - scalarised.origin) / scalarised.range);
+    largest = std::max(largest, scalarised.part(value(scalarised.objective, analysis)));
   }
   return largest;
 }

@@ -53,10 +53,16 @@ class DesignProblem {
 
   /// Whether a bound can be exceeded by more or less: an upper bound on an output or an objective.
   bool has_upper_bounds() const { return !task_.objective_bounds.empty() || !std::ranges::all_of(task_.constraints, &OutputConstraint::is_least); }
-  /// The same scenes and variables judged by how far a design is beyond its upper bounds: the largest excess of an output or an objective, relative
-  /// to its bound, is minimised [-], below 0 where all are kept. Lower bounds on outputs and bounds on modifications remain constraints. Only where
-  /// has_upper_bounds().
+  /// Whether judged_by_excess() has anything to minimise.
+  bool has_smooth_excess() const {
+    return !task_.objective_bounds.empty() || std::ranges::any_of(task_.constraints, &OutputConstraint::has_smooth_excess);
+  }
+  /// The same scenes and variables judged by how far a design is beyond its bounds: the largest excess of an output or an objective, relative
+  /// to its bound, is minimised [-], below 0 where all are kept. Bounds on outputs without a smooth excess (OutputConstraint::has_smooth_excess()) and bounds on
+  /// modifications remain constraints. Only where has_smooth_excess().
   DesignProblem judged_by_excess() const;
+  /// The same task with every bound on an output or an objective moved out by a share of itself [-], >= 0.
+  DesignProblem with_wider_bounds(double share) const;
 
   /// Start of a search: set_start(), or the scaled design of the task's own modifications, moved into set_box() where it lies outside.
   Eigen::VectorXd start() const;

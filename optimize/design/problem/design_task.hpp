@@ -57,6 +57,9 @@ struct OutputConstraint {
   double limit() const { return is_least() ? minimum : maximum; }
   /// Relative distance beyond the bound, below 0 where it is kept [-].
   double excess(double value) const { return (is_least() ? limit() - value : value - limit()) / std::abs(limit()); }
+  /// Whether the excess is the largest of smooth functions, so that it can be minimised: of an upper bound, or of a lower one on a positive output that
+  /// has_reciprocal().
+  bool has_smooth_excess() const { return !is_least() || (minimum > 0.0 && has_reciprocal(design_output(output.output))); }
 };
 
 /// What a bound on modifications is for, where a limit of the grinding asks for it.
@@ -114,11 +117,18 @@ struct ObjectiveBound {
   double limit{std::numeric_limits<double>::infinity()};  ///< outside unit, > 0
 };
 
-/// An objective's part in a scalarisation: the largest (value - origin) / range of all is minimised.
+/// An objective's part in a scalarisation: the largest part of all is minimised.
+///
+///     part = (value - origin) / range,   or, of an objective that is a reciprocal 1/f under a limit 1/m = origin,   1 - origin / value = (m - f) / m
 struct ScalarisedObjective {
   Objective objective;
-  double origin{0.0};  ///< outside unit
-  double range{1.0};   ///< outside unit, > 0
+  double origin{0.0};         ///< outside unit
+  double range{1.0};          ///< outside unit, > 0
+  bool of_reciprocal{false};  ///< the second formula; the value and the origin are > 0
+
+  double part(double value) const { return of_reciprocal ? 1.0 - origin / value : (value - origin) / range; }
+  /// Change of the value by that of the part there [outside unit], > 0.
+  double range_at(double value) const { return of_reciprocal ? value * value / origin : range; }
 };
 
 /// A deviation as far as it can be ground: amounts and extents of a relief do not fall below 0.

@@ -44,12 +44,11 @@ Eigen::VectorXd DirectProgram::aggregate_gradient(const Objective& objective, co
 Eigen::VectorXd DirectProgram::objective_gradient(const DesignAnalysis& analysis) const {
   const DesignTask& task = problem_.task();
   if (task.scalarisation.empty()) return aggregate_gradient(task.combined_objective(), analysis);
-  const auto share = [&](const ScalarisedObjective& scalarised) {
-    return (problem_.value(scalarised.objective, analysis) - scalarised.origin) / scalarised.range;
-  };
-  const auto largest = std::max_element(task.scalarisation.begin(), task.scalarisation.end(),
-                                        [&](const ScalarisedObjective& a, const ScalarisedObjective& b) { return share(a) < share(b); });
-  return aggregate_gradient(largest->objective, analysis) / largest->range;
+  const auto value = [&](const ScalarisedObjective& scalarised) { return problem_.value(scalarised.objective, analysis); };
+  const auto largest =
+      std::max_element(task.scalarisation.begin(), task.scalarisation.end(),
+                       [&](const ScalarisedObjective& a, const ScalarisedObjective& b) { return a.part(value(a)) < b.part(value(b)); });
+  return aggregate_gradient(largest->objective, analysis) / largest->range_at(value(*largest));
 }
 
 ProgramValues DirectProgram::evaluate(const Eigen::VectorXd& x, bool with_gradients) {

@@ -206,12 +206,12 @@ bool EpigraphProgram::is_majorant() const {
   });
 }
 
-void EpigraphProgram::write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, double factor, double shift,
+void EpigraphProgram::write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, const std::function<Slope(double)>& excess,
                                       ProgramValues& values) const {
   const SmoothValue value = block.value(y);
-  const Slope objective = block.objective_of(value.value);
-  values.constraints[at] = factor * objective.value - shift;
-  values.constraint_jacobian.row(at) = factor * objective.by * value.gradient;
+  const Slope objective = block.objective_of(value.value), row = excess(objective.value);
+  values.constraints[at] = row.value;
+  values.constraint_jacobian.row(at) = row.by * objective.by * value.gradient;
 }
 
 void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis, ProgramValues& values) {
@@ -241,12 +241,18 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       jacobian.head(n) = by_output * problem_.scaled(value.gradient, analysis, row.scene);
       return;
     }
-    case Kind::ObjectiveBound:
-      return write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y,
-                             1.0 / task.objective_bounds[static_cast<std::size_t>(row.index)].limit, 1.0, values);
+    case Kind::ObjectiveBound: {
+      const double factor = 1.0 / task.objective_bounds[static_cast<std::size_t>(row.index)].limit;
+      const auto excess = [factor](double value) { return Slope{factor * value - 1.0, factor}; };
+      return write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y, excess, values);
+    }
     case Kind::ScalarisedObjective: {
       const ScalarisedObjective& scalarised = task.scalarisation[static_cast<std::size_t>(row.index)];
-      write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y, 1.0 / scalarised.range, scalarised.origin / scalarised.range, values);
+      const double factor = 1.0 / scalarised.range, shift = scalarised.origin / scalarised.range;
+      const auto excess = [&](double value) {
+        return scalarised.of_reciprocal ? Slope{scalarised.part(value), 1.0 / scalarised.range_at(value)} : Slope{factor * value - shift, factor};
+      };
+      write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y, excess, values);
       values.constraints[at] -= y[variables() - 1];
       jacobian[variables() - 1] = -1.0;
       return;

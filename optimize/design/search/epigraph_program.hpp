@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -74,7 +75,9 @@ class EpigraphProgram : public NonlinearProgram {
   int objectives_minimised() const { return is_scalarised() ? static_cast<int>(problem_.task().scalarisation.size()) : 1; }
   const ObjectiveTerm& term_of(const EpigraphRow& row) const;
   void write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis, ProgramValues& values);
-  void write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, double factor, double shift, ProgramValues& values) const;
+  /// @param excess  of an objective's value in outside units, as the row has it
+  void write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, const std::function<Slope(double)>& excess,
+                       ProgramValues& values) const;
   void choose_rows(const DesignAnalysis& analysis);
 
   DesignProblem& problem_;

@@ -51,15 +51,14 @@ std::vector<Eigen::VectorXd> space_filling_starts(const Eigen::VectorXd& first, 
   return starts;
 }
 
-std::vector<LocalRun> run_from_starts(const DesignProblem& problem, const SolverOptions& options, int count) {
-  const std::vector<Eigen::VectorXd> starts = space_filling_starts(problem.start(), count, options.seed);
+std::vector<LocalRun> run_from(const DesignProblem& problem, const SolverOptions& options, const std::vector<Eigen::VectorXd>& starts) {
   std::vector<LocalRun> runs(starts.size());
   std::mutex reporting;
   int analyses = 0;
   double best = not_given;
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
     SolverOptions own = options;
-    own.max_evaluations = std::max(1, options.max_evaluations / count);
+    own.max_evaluations = std::max(1, options.max_evaluations / static_cast<int>(starts.size()));
     own.seed = options.seed + i;
     if (options.progress) {
       own.progress = [&](int, double objective) {
@@ -73,6 +72,10 @@ std::vector<LocalRun> run_from_starts(const DesignProblem& problem, const Solver
     runs[i] = run_local(copy, own);
   });
   return runs;
+}
+
+std::vector<LocalRun> run_from_starts(const DesignProblem& problem, const SolverOptions& options, int count) {
+  return run_from(problem, options, space_filling_starts(problem.start(), count, options.seed));
 }
 
 std::size_t best_run(const std::vector<LocalRun>& runs) {

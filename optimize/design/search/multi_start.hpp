@@ -8,8 +8,10 @@ namespace flankwright {
 /// seed draws [Cranley, Patterson, SIAM J. Numer. Anal. 13 (1976)].
 std::vector<Eigen::VectorXd> space_filling_starts(const Eigen::VectorXd& first, int count, unsigned long seed);
 
-/// Parallel runs from several starts, each with an equal part of options.max_evaluations and its own seed; the first
-/// starts where the problem does. The result does not depend on the number of threads.
+/// Parallel runs from several starts, at least one, each with an equal part of options.max_evaluations and its own seed. The result does not depend on the
+/// number of threads.
+std::vector<LocalRun> run_from(const DesignProblem& problem, const SolverOptions& options, const std::vector<Eigen::VectorXd>& starts);
+/// The same from space_filling_starts(), the first of which is where the problem starts.
 /// @param count  >= 1
 std::vector<LocalRun> run_from_starts(const DesignProblem& problem, const SolverOptions& options, int count);
 

@@ -104,7 +104,8 @@ std::string objective_in_words(const Optimum::Objective& objective, const Optimu
 std::string limit_in_words(const Relaxation::Limit& limit, const DesignTask& task) {
   if (limit.constraint >= 0) {
     const OutputConstraint& c = task.constraints[static_cast<std::size_t>(limit.constraint)];
-    return fmt::format("{} <= {:.4g}{}", plain_name(c.output.name), c.limit() * c.output.outside_factor(), behind_number(c.output.unit()));
+    return fmt::format("{} {} {:.4g}{}", plain_name(c.output.name), c.is_least() ? ">=" : "<=", c.limit() * c.output.outside_factor(),
+                       behind_number(c.output.unit()));
   }
   const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(limit.objective_bound)];
   return fmt::format("{} <= {:.4g}{}", plain_name(bound.objective.name()), bound.limit, behind_number(bound.objective.unit()));
@@ -159,7 +160,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   const bool usable = best.analysis.usable() && !best.analysis.cycles.empty();
   const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
   const bool keeps_bounds = searched.violation(best.analysis.modification) <= DesignLog::tolerance;  // else they are what is in the way
-  if (usable && is_infeasible && keeps_bounds && searched.has_upper_bounds())
+  if (usable && is_infeasible && keeps_bounds && searched.has_smooth_excess())
     assessment.relaxation = find_relaxation(searched, best.analysis.modification, best.variables);
   if (usable && !is_infeasible) {
     const DesignProblem last = last_stage(searched, design.stages);
@@ -226,13 +227,13 @@ std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task
 
 std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const DesignTask& task) {
   std::vector<std::string> words{fmt::format(
-      "No design was found within the bounds that keeps the limits: the nearest one exceeds them by {:.3g} %. With limits that much higher it would be feasible.",
+      "No design was found within the bounds that keeps the limits: the nearest found exceeds them by {:.3g} %. With limits that much wider it would be feasible.",
       100.0 * relaxation.excess)};
   constexpr double said = 0.005;  // less would be a weight of 0.00
   for (const Relaxation::Limit& limit : relaxation.limits) {
     if (!(limit.weight >= said)) continue;
     const DesignScene& scene = task.scenes[static_cast<std::size_t>(limit.scene)];
-    words.push_back(fmt::format("{} is exceeded in the scene \"{}\", {:.5g} N·m, with weight {:.2f}.", limit_in_words(limit, task), scene.name,
+    words.push_back(fmt::format("{} is not kept in the scene \"{}\", {:.5g} N·m, with weight {:.2f}.", limit_in_words(limit, task), scene.name,
                                 scene.torque / units::newton_metre, limit.weight));
   }
   constexpr std::size_t most_said = 6;

@@ -53,7 +53,7 @@ function build_scenes(results, body) {
       title: `${capital(name)} of every scene`,
       wide: true,
       caption: `Change of the ${name} by the optimised flanks in each scene; `
-        + (optimise.status === "infeasible" ? "the search was for the least excess over the limits, and the objective had no part in it."
+        + (optimise.status === "infeasible" ? "the search was for the least excess over the limits, and the objective decided only between designs of the same excess."
           : "a scene that moves to the right becomes worse in favour of the others."),
     }, (plot) => draw_scene_objectives(plot, scenes, unit));
     table(body, {
