@@ -87,7 +87,7 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
   }
   if (!is_of_listed) out += validation;
   if (assessment.relaxation) {
-    out += "no feasible design:\n";
+    out += "no feasible design found:\n";
     for (const std::string& sentence : relaxation_in_words(*assessment.relaxation, task)) out += sentence + "\n";
   }
   if (!assessment.optimum) return out;

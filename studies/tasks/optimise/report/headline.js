@@ -102,7 +102,7 @@ function optimise_verdict(results, verdict) {
   }
   if (relaxation.length > 0) {
     verdict.append(el("div", { class: "banner", id: "relaxation" },
-      el("strong", {}, "No feasible design: the limits that are exceeded, and what would reduce the excess"),
+      el("strong", {}, "No feasible design found: the limits that are exceeded, and what would reduce the excess"),
       el("ul", { class: "statements" }, ...relaxation.map((sentence) => el("li", {}, capital(pretty_unit(sentence).replace("<=", "≤").replace(">=", "≥")))))));
   }
 }
