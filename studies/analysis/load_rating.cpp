@@ -6,6 +6,8 @@
 #include <array>
 #include <iterator>
 
+#include "studies/analysis/step_progress.hpp"
+
 namespace flankwright::studies {
 
 namespace {
@@ -41,7 +43,7 @@ void add_gradients(const RatedCase& load_case, bool has_shafts, const std::vecto
 }  // namespace
 
 std::vector<LoadRating> rate_cases(const std::vector<RatedCase>& cases, bool has_shafts, const PeakSearch& search,
-                                   const std::vector<MeshParameter>& parameters) {
+                                   const std::vector<MeshParameter>& parameters, const ProgressReport& progress) {
   std::vector<Sought> sought;
   std::vector<std::array<std::size_t, rated_parts.size()>> places(cases.size());  // of the parts of each load case, in `sought`
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -55,9 +57,11 @@ std::vector<LoadRating> rate_cases(const std::vector<RatedCase>& cases, bool has
       if (known == sought.end()) sought.push_back({&cases[i], condition, deflect, {}});
     }
   }
+  StepProgress step(progress, "seeking peaks for load factors", sought.size());
   tbb::parallel_for(std::size_t{0}, sought.size(), [&](std::size_t i) {
     Sought& s = sought[i];
     s.peaks = locate_peaks(s.of->mesh_for(s.condition, s.shafts_deflect, {}), s.condition, s.of->pinion_torque, search);
+    step.add_one();
   });
   std::vector<LoadRating> ratings(cases.size());
   for (std::size_t i = 0; i < cases.size(); ++i) {

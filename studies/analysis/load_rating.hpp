@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/progress_report.hpp"
 #include "core/rating/peak_gradient.hpp"
 
 namespace flankwright::studies {
@@ -34,6 +35,6 @@ struct RatedCase {
 /// @param has_shafts  the pair has shafts that deflect; else meshes with and without them are the same
 /// @param parameters  derivatives are given with respect to these
 std::vector<LoadRating> rate_cases(const std::vector<RatedCase>& cases, bool has_shafts, const PeakSearch& search,
-                                   const std::vector<MeshParameter>& parameters);
+                                   const std::vector<MeshParameter>& parameters, const ProgressReport& progress = {});
 
 }  // namespace flankwright::studies

@@ -11,6 +11,7 @@
 #include "core/fidelity/resolution_level.hpp"
 #include "core/fidelity/resolved_cycle.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
+#include "studies/analysis/step_progress.hpp"
 
 namespace flankwright::studies {
 
@@ -157,7 +158,7 @@ std::vector<std::string> switched_off(const EffectDecisions& before, const Effec
 
 }  // namespace
 
-EffectSizes study_effect_sizes(const StudyResults& results) {
+EffectSizes study_effect_sizes(const StudyResults& results, const ProgressReport& progress) {
   EffectSizes sizes;
   const EffectSizing asked = results.study.fidelity.effect_sizes;
   std::vector<const LoadedResult*> cases;
@@ -169,8 +170,11 @@ EffectSizes study_effect_sizes(const StudyResults& results) {
   for (const LoadedResult* loaded : cases) scenes.push_back(scene_of(results, loaded->condition, loaded->torque, estimate_resolution(results)));
   EffectMeshes meshes;
   for (const EffectScene& scene : scenes) make_effect_meshes(scene, results.effects, meshes, for_each_in_parallel);
-  tbb::parallel_for(std::size_t{0}, cases.size(),
-                    [&](std::size_t i) { estimates[i] = estimate_effect_sizes(scenes[i], results.effects, {}, meshes); });
+  StepProgress step(progress, "estimating sizes of effects", cases.size());
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    estimates[i] = estimate_effect_sizes(scenes[i], results.effects, {}, meshes);
+    step.add_one();
+  });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const EstimatedSize& estimate : estimates[i]) {
       add(sizes.estimated, {cases[i]->scene, cases[i]->torque, estimate.size, estimate.positions, estimate.solved_again});

@@ -2,13 +2,14 @@
 
 #include <vector>
 
+#include "core/base/progress_report.hpp"
 #include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
 
 /// Sizes as fidelity.effect_sizes asks for them, over the loaded results: all load cases of an analysis, those of the design after an
 /// optimisation.
-EffectSizes study_effect_sizes(const StudyResults& results);
+EffectSizes study_effect_sizes(const StudyResults& results, const ProgressReport& progress = {});
 
 /// Switches off, before loads are analysed, what is estimated to lie below a budget in every load case together, see within_budget();
 /// nothing where the study lists its effects by hand. What the estimates, made coarsely and to first order, propose is solved with and

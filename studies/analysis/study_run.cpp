@@ -12,9 +12,11 @@
 #include "core/load/cycle/mesh_root_stress.hpp"
 #include "core/rating/shaft_misalignment.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
+#include "studies/analysis/step_progress.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/compliance/study_compliance.hpp"
@@ -41,6 +43,7 @@ StudyResults StudyRun::finish() {
   find_edge_contact();
   note_large_motions();
   if (!results_.life) rate_life();
+  if (const std::string note = points_note(results_); !note.empty()) results_.notes.push_back(note);
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
@@ -52,6 +55,10 @@ StudyResults StudyRun::finish() {
 
 void StudyRun::report(const std::string& label, int done, int total, const std::string& remark) const {
   if (progress_) progress_(label, done, total, remark);
+}
+
+std::string StudyRun::resolution_in_words() const {
+  return fmt::format("{} intervals, {} positions", results_.study.fidelity.quadrature.intervals, results_.phases.size());
 }
 
 MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress,
@@ -77,7 +84,8 @@ MeshAt StudyRun::mesh_at(const FlankCondition& condition, double torque, bool sh
   };
   if (!parameters.empty()) return made;
   const std::lock_guard lock(memories_mutex_);
-  return memories_[{placement, quadrature.intervals, shafts != nullptr}].remembering(std::move(made));
+  const std::tuple key(placement, quadrature.intervals, shafts != nullptr);
+  return memories_.try_emplace(key, position_budget_).first->second.remembering(std::move(made));
 }
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
@@ -146,7 +154,11 @@ std::vector<std::size_t> StudyRun::models_for(const std::vector<DesignScene>& sc
   }
   structures();
   std::vector<MeshModel> made(unknown.size());
-  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) { made[i] = mesh_of_load_cases(unknown[i]); });
+  StepProgress step(progress_, "making meshes", made.size(), resolution_in_words());
+  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) {
+    made[i] = mesh_of_load_cases(unknown[i]);
+    step.add_one();
+  });
   std::ranges::move(made, std::back_inserter(results_.models));
   return models;
 }
@@ -302,9 +314,12 @@ void StudyRun::analyse_loaded(const std::vector<DesignScene>& scenes) {
   const std::vector<MeshParameter> parameters = gradient_parameters();
   const std::vector<std::size_t> models = models_for(scenes);
   std::vector<LoadedCycle> cycles(scenes.size());
-  tbb::parallel_for(std::size_t{0}, scenes.size(),
-                    [&](std::size_t i) { cycles[i] = analyse_cycle(results_.models[models[i]], scenes[i].condition, scenes[i].torque, parameters); });
-  report("analysing", static_cast<int>(scenes.size()), static_cast<int>(scenes.size()));
+  StepProgress step(progress_, "analysing", scenes.size(), resolution_in_words());
+  tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
+    cycles[i] = analyse_cycle(results_.models[models[i]], scenes[i].condition, scenes[i].torque, parameters);
+    step.add_one();
+  });
+  report("analysing", static_cast<int>(scenes.size()), static_cast<int>(scenes.size()), resolution_in_words());
   add_loaded(scenes, "given", std::move(cycles));
 }
 

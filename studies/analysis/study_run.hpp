@@ -31,6 +31,8 @@ class StudyRun {
   /// Meshes that a search makes, for the load cases too.
   const std::shared_ptr<MeshStore>& mesh_store() const { return mesh_store_; }
   void report(const std::string& label, int done, int total, const std::string& remark = {}) const;
+  /// "12 intervals, 32 positions", for reports of progress.
+  std::string resolution_in_words() const;
 
   /// The subject of all fidelity levels of this study.
   LevelSubject level_subject() const { return {results_.study, results_.pair, loaded_scenes(), results_.shafts}; }
@@ -121,6 +123,7 @@ class StudyRun {
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
   /// By placement, intervals and whether shafts deflect: scenes and the parts of a condition are looked at in the same phases to begin with.
+  PositionBudget position_budget_;
   std::map<std::tuple<MeshPlacement, int, bool>, PositionMemory> memories_;
   std::mutex memories_mutex_;
   double unloaded_seconds_{0.0};

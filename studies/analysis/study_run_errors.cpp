@@ -9,6 +9,7 @@
 #include "core/fidelity/resolved_analysis.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/analysis/film_readings.hpp"
+#include "studies/analysis/step_progress.hpp"
 #include "studies/analysis/study_run.hpp"
 #include "studies/study_file/study_life.hpp"
 
@@ -92,6 +93,7 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
   const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(placements) : std::vector<const MeshModel*>(cases.size(), nullptr);
   const std::shared_ptr<const LifeModel> life = life_model(results_.study);
   std::vector<ResolvedCycle> all(cases.size());
+  StepProgress step(progress_, "seeking peaks and errors", cases.size(), resolution_in_words());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
@@ -105,6 +107,7 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
                                    .coarse_at = mesh_at(scene.condition, scene.torque, true, {}, halved(results_.study.fidelity.quadrature)),
                                    .further = life ? film_readings(*model, *life, scene.operation, cycle->force) : std::vector<PointReading>()};
     all[i] = resolve_cycle(*model, *cycle, at, scene.condition, scene.torque, resolving, gradient_parameters());
+    step.add_one();
   });
   return all;
 }
@@ -152,6 +155,7 @@ void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
   }
   const std::shared_ptr<const LifeModel> life = life_model(results_.study);
   const std::vector<std::pair<MeshPlacement, std::vector<Held>>> placed(held.begin(), held.end());
+  StepProgress step(progress_, "comparing with twice the intervals", placed.size(), resolution_in_words());
   tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
     std::shared_ptr<const MeshModel> known = mesh_of_search(placed[i].first, {quadrature, results_.phases});
     if (!known) known = std::make_shared<const MeshModel>(mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {}));
@@ -171,6 +175,7 @@ void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
       }
       of->compared_intervals = quadrature.intervals;
     }
+    step.add_one();
   });
 }
 

@@ -8,6 +8,7 @@
 #include "studies/analysis/edge_contact_note.hpp"
 #include "studies/analysis/film_note.hpp"
 #include "studies/analysis/governing_cases.hpp"
+#include "studies/analysis/step_progress.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
 #include "studies/analysis/study_run.hpp"
 #include "studies/analysis/deflection_note.hpp"
@@ -65,7 +66,8 @@ void StudyRun::rate() {
     cases.push_back({mesh_for(loaded->torque), loaded->condition, loaded->torque, opening});
   }
   const std::vector<MeshParameter> parameters = gradient_parameters();
-  std::vector<LoadRating> ratings = rate_cases(cases, results_.shafts != nullptr, parameters.empty() ? PeakSearch{} : sharp_peaks, parameters);
+  std::vector<LoadRating> ratings =
+      rate_cases(cases, results_.shafts != nullptr, parameters.empty() ? PeakSearch{} : sharp_peaks, parameters, progress_);
   for (std::size_t i = 0; i < rated.size(); ++i) {
     rated[i]->rating = std::move(ratings[i]);
     rated[i]->rating->quadrature = quadrature;
@@ -75,7 +77,11 @@ void StudyRun::rate() {
 
 void StudyRun::rate_life() {
   results_.life_model = life_model(study());
-  results_.life = study_life(results_, [this](const LoadedResult& loaded) { return coarse_cycle_of(loaded); });
+  StepProgress step(progress_, "rating life", results_.loaded.size());
+  results_.life = study_life(results_, [&](const LoadedResult& loaded) {
+    step.add_one();
+    return coarse_cycle_of(loaded);
+  });
   if (!results_.life) return;
   results_.notes.insert(results_.notes.end(), results_.life->not_summed.begin(), results_.life->not_summed.end());
   if (const std::string note = film_note(results_); !note.empty()) results_.notes.push_back(note);
@@ -105,7 +111,9 @@ std::optional<EdgeContactStart> StudyRun::edge_contact_of(const LoadedResult& lo
 
 void StudyRun::find_edge_contact() {
   const Stopwatch clock;
+  StepProgress step(progress_, "seeking contact of tip edges", results_.loaded.size());
   tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
+    step.add_one();
     LoadedResult& loaded = results_.loaded[i];
     // The stress is NaN of sharp edges, and where the effect is off.
     if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(results_.models[loaded.model], loaded.cycle)) return;
@@ -129,7 +137,7 @@ void StudyRun::note_large_motions() {
 
 void StudyRun::size_effects() {
   const Stopwatch clock;
-  results_.effect_sizes = study_effect_sizes(results_);
+  results_.effect_sizes = study_effect_sizes(results_, progress_);
   if (results_.effect_sizes.estimated.empty()) return;
   results_.steps.push_back(
       {"effect_sizes", results_.effect_sizes.exact.empty() ? "estimates" : "estimates, and each left out in turn", clock.seconds()});

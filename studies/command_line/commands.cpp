@@ -20,6 +20,7 @@
 #include "studies/report/report.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/results/results_json.hpp"
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/tasks/study_template.hpp"
@@ -76,8 +77,8 @@ std::pair<Study, fs::path> opened(const RunOptions& options) {
   return {study, folder};
 }
 
-int write_results(const FinishedRun& run, const fs::path& folder) {
-  write_files(run, folder);
+/// Notes, tables and what is not met, of a run whose files are written. @returns the exit code
+int tell(const FinishedRun& run, const fs::path& folder) {
   for (const std::string& note : run.results.notes) spdlog::warn("{}", note);
   print(summary_table(run.results));
   if (!run.different.empty()) print(fmt::format("\nnot as [expect] says:\n{}", run.different));
@@ -106,8 +107,10 @@ int run_command(const RunOptions& options) {
   const ProgressReport report = progress.report();
   if (shard) return run_shard(study, folder, *shard, report);
   FinishedRun run = finish_study(study, folder, report);
+  if (run.results.loaded.size() > most_cases_with_points) report("writing files", 0, 1, "");
+  write_files(run, folder);
   progress.finish();
-  const int exit_code = write_results(run, folder);
+  const int exit_code = tell(run, folder);
   keep_until_exit(std::move(run));
   return exit_code;
 }
@@ -118,7 +121,9 @@ int merge_command(const RunOptions& options) {
   StudyResults results = run_study(study);
   merge_shards(folder, study, SampleAnalysis(results).outputs());
   run_sweep(results, folder, {});
-  return write_results(finished(std::move(results)), folder);
+  const FinishedRun run = finished(std::move(results));
+  write_files(run, folder);
+  return tell(run, folder);
 }
 
 int check_command(const std::string& path, const std::vector<Override>& overrides) {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/report/report.hpp"
@@ -28,6 +29,7 @@ FinishedRun finished(StudyResults results) {
 FinishedRun finish_study(const Study& study, const std::filesystem::path& folder, const ProgressReport& progress) {
   StudyResults results = run_study(study, progress);
   if (study.task->run_in_folder != nullptr) study.task->run_in_folder(results, folder, progress);
+  if (progress && results.loaded.size() > most_cases_with_points) progress("gathering results", 0, 1, "");
   return finished(std::move(results));
 }
 

@@ -1,8 +1,12 @@
 #include "studies/results/used_json.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/results/bodies_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/shaft_json.hpp"
@@ -102,6 +106,14 @@ Json without_round_off(Json json) {
   return json;
 }
 
+/// The load cases that have their contact points, and whose word that is.
+Json output_json(const StudyResults& results) {
+  const std::vector<bool> kept = cases_with_points(results);
+  return {{"points", kept_points(results) == CasesWithPoints::All ? "all" : "governing"},
+          {"points_by", results.study.points ? "study" : fmt::format("default: all up to {} load cases", most_cases_with_points)},
+          {"load_cases_with_points", std::ranges::count(kept, true)}};
+}
+
 }  // namespace
 
 Json quadrature_json(const Quadrature& quadrature) {
@@ -129,7 +141,7 @@ Json used_json(const StudyResults& results) {
               {"quadrature", quadrature_json(study.fidelity.quadrature)},
               {"accuracy", study.fidelity.accuracy ? Json(*study.fidelity.accuracy) : Json()},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
-  if (!study.points_of_all_cases) used["output"] = {{"points", "governing"}};
+  if (!results.loaded.empty()) used["output"] = output_json(results);
   if (!study.unit.empty()) used["unit"] = unit_json(study.unit);
   if (study.misalignment.pinion_lead_angle != 0.0) {
     used["misalignment"] = {

@@ -95,6 +95,9 @@ struct GivenValue {
   std::string value;  ///< as written
 };
 
+/// Load cases whose contact points are in the results: all, or those that govern.
+enum class CasesWithPoints { All, Governing };
+
 struct Study {
   std::string title;
   std::string file;                              ///< path as given
@@ -122,8 +125,9 @@ struct Study {
   TaskTables tables;                         ///< what it says to its tasks, see table()
   std::vector<SceneTolerance> tolerances;    ///< of assembly and manufacture; those of tolerance_class among them
   std::optional<int> tolerance_class;        ///< of both gears; none: tolerances are given one by one
-  bool points_of_all_cases{true};            ///< contact points of every load case in the results; false: of those that govern
-  std::optional<int> drawing_class;          ///< of the drawing of the flanks; none: that of the tolerances
+  std::optional<CasesWithPoints>
+      points{};                      ///< load cases whose contact points are in the results; none: by how many there are, see cases_with_points()
+  std::optional<int> drawing_class;  ///< of the drawing of the flanks; none: that of the tolerances
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
   std::string text;  ///< all of it as TOML, with what the command line set

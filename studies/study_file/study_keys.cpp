@@ -70,9 +70,9 @@ std::vector<SchemaKey> working_condition_rows() {
       {.path = "drawing.iso_1328_class", .kind = Integer, .range = {.low = 1, .high = 11}, .fallback = "(that of optimise.scatter)",
        .meaning = "class of the bands about the traces that go on the drawing; without a class there is no drawing",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.drawing_class = static_cast<int>(v.integer); }},
-      {.path = "output.points", .kind = Word, .words = {"all", "governing"}, .fallback = "\"all\"",
-       .meaning = "load cases whose contact points are in results.json, points.csv and the report; governing: those of the largest stresses, transmission error and damage of each design; all have their figures over the cycle",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.points_of_all_cases = v.text == "all"; }},
+      {.path = "output.points", .kind = Word, .words = {"all", "governing"}, .fallback = "(all up to 40 load cases, those of all designs counted; governing beyond)",
+       .meaning = "load cases whose contact points are in results.json, points.csv and the report; governing: those of the largest stresses, transmission error and damage, and of the least safety and film, of each design and flank; all load cases have their quantities over the cycle",
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.points = v.text == "all" ? CasesWithPoints::All : CasesWithPoints::Governing; }},
       {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "\"auto\"",
        .meaning = "mesh positions over one base pitch; auto is 32, and in an analysis under load up to 128 where the estimated errors ask for more",
        .store = [](StudyBuilder& d, Member, const Value& v) {

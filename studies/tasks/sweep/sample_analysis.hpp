@@ -55,7 +55,8 @@ class SampleAnalysis {
   bool is_loaded() const { return !nominal_.loaded.empty(); }
 
   const StudyResults& nominal_;
-  mutable PositionMemory memory_;                  ///< of the nominal placement between its positions
+  mutable PositionBudget budget_;
+  mutable PositionMemory memory_{budget_};         ///< of the nominal placement between its positions
   std::vector<CycleEntry> entries_;                ///< those of the outputs under load that are entries of cycle_quantities()
   std::shared_ptr<const LifeModel> life_;          ///< null: the study does not ask for life
   std::vector<const LifeQuantity*> life_outputs_;  ///< those of the outputs that the nominal load case has

@@ -1,6 +1,7 @@
 #include "studies/analysis/governing_cases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 
 #include "studies/analysis/run_study.hpp"
@@ -10,6 +11,7 @@
 #include "studies/results/results_json.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "studies/study_file/study_schema.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -80,9 +82,88 @@ TEST_CASE("All load cases have their points unless the study asks for those that
     points += listed_points(here);
   }
   CHECK(small.at("used").at("output").at("points") == "governing");
-  CHECK_FALSE(whole.at("used").contains("output"));
+  CHECK(small.at("used").at("output").at("points_by") == "study");
+  CHECK(small.at("used").at("output").at("load_cases_with_points") == 1);
+  CHECK(whole.at("used").at("output").at("points") == "all");
+  CHECK(whole.at("used").at("output").at("load_cases_with_points") == 3);
   CHECK(lines_of(points_table(governing)) == points + 1);
   CHECK(render_report(small).size() < render_report(whole).size());
+}
+
+TEST_CASE("Beyond a number of load cases only the governing ones keep their points, unless the study says otherwise", "[studies][results]") {
+  StudyResults many;
+  const auto with_cases = [&](std::size_t count) {
+    many.loaded.assign(count, {});
+    for (std::size_t i = 0; i < count; ++i) {
+      many.loaded[i].torque = 100.0 + static_cast<double>(i);
+      many.loaded[i].summary.peak_contact_stress = 100.0 + static_cast<double>(i);
+    }
+  };
+  with_cases(most_cases_with_points);
+  CHECK(std::ranges::count(cases_with_points(many), true) == std::ssize(many.loaded));
+  CHECK(points_note(many).empty());
+  with_cases(most_cases_with_points + 1);
+  const std::vector<bool> shown = cases_with_points(many);
+  CHECK(shown.back());
+  CHECK_FALSE(shown.front());
+  CHECK_THAT(points_note(many), Catch::Contains("output.points") && Catch::Contains("1 to 3 MB"));
+  // The study's own word wins, either way, and needs no note.
+  many.study.points = CasesWithPoints::All;
+  CHECK(std::ranges::count(cases_with_points(many), true) == std::ssize(many.loaded));
+  CHECK(points_note(many).empty());
+  many.study.points = CasesWithPoints::Governing;
+  CHECK(cases_with_points(many) == shown);
+  CHECK(points_note(many).empty());
+  const std::string limit = std::to_string(most_cases_with_points);
+  for (const SchemaKey& key : study_schema()) {
+    if (key.path == "output.points") CHECK_THAT(key.fallback, Catch::Contains("up to " + limit + " load cases"));
+  }
+}
+
+TEST_CASE("Of many load cases that are nearly the same only the largest keeps its points", "[studies][results]") {
+  StudyResults alike;
+  alike.loaded.assign(2 * most_cases_with_points, {});
+  for (std::size_t i = 0; i < alike.loaded.size(); ++i) {
+    alike.loaded[i].torque = static_cast<double>(i);
+    alike.loaded[i].summary.peak_contact_stress = 1000.0 + 0.01 * static_cast<double>(i);
+  }
+  CHECK(std::ranges::count(governing_cases(alike), true) == std::ssize(alike.loaded));
+  CHECK(std::ranges::count(cases_with_points(alike), true) == 1);
+  CHECK(cases_with_points(alike).back());
+}
+
+TEST_CASE("Load cases govern on the flank that they load", "[studies][results]") {
+  StudyResults both;
+  both.loaded.assign(3, {});
+  for (std::size_t i = 0; i < 3; ++i) {
+    both.loaded[i].torque = static_cast<double>(i);
+    both.loaded[i].summary.peak_contact_stress = std::array{900.0, 700.0, 500.0}[i];
+    both.loaded[i].condition.other_flanks = i > 0;
+  }
+  CHECK(governing_cases(both) == std::vector<bool>{true, true, false});
+}
+
+TEST_CASE("A load case with the thinnest film, the hottest contact or the least safety governs", "[studies][results][life]") {
+  StudyResults rated;
+  rated.loaded.assign(5, {});
+  rated.life = StudyLife{};
+  for (std::size_t i = 0; i < 5; ++i) {
+    rated.loaded[i].torque = static_cast<double>(i);
+    CaseLife of;
+    of.loaded = i;
+    of.film = 1.0;
+    of.contact_temperature = 100.0;
+    of.contact_safety = {2.0, 2.0};
+    if (i == 1) of.film = 0.5;
+    if (i == 2) of.contact_temperature = 150.0;
+    if (i == 3) of.contact_safety.wheel = 1.5;
+    if (i == 4) continue;  // was not rated
+    rated.life->cases.push_back(of);
+  }
+  // Case 0 is among the least safe of the pinion, whose safety is the same in all.
+  const std::vector<bool> governs = governing_cases(rated);
+  CHECK((governs[1] && governs[2] && governs[3]));
+  CHECK_FALSE(governs[4]);
 }
 
 TEST_CASE("A choice of load cases that does not exist is refused", "[studies][results]") {

@@ -5,6 +5,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/governing_cases_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grinding_process_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/model_honesty_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/position_memory_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/run_study_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/stated_accuracy_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/stress_factors_test.cpp
