@@ -76,7 +76,7 @@ IsoStressNumbers iso_stress_numbers(const GearPair& pair, const PerGear<Material
   numbers.Z_eps = contact_ratio_factor(pair);
   numbers.Z_beta = 1.0 / std::sqrt(std::cos(pair.data.helix_angle));
   numbers.contact = numbers.Z_H * numbers.Z_E * numbers.Z_eps * numbers.Z_beta * std::sqrt(F_t / (d_1 * face_width) * (u + 1.0) / u);
-  const double most = 30.0 * units::deg;  // of beta in Y_beta
+  const double most = 30.0 * units::deg;  // of beta in Y_beta [ISO 6336-3:2006]
   numbers.Y_beta = 1.0 - std::min(1.0, pair.overlap_ratio) * std::min(most, pair.data.helix_angle) / (120.0 * units::deg);
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     numbers.single_pair[m] = single_pair_factor(pair, m);

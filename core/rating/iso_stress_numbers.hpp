@@ -4,6 +4,10 @@
 
 namespace flankwright {
 
+/// Editions that the stress numbers follow, as results name them.
+inline constexpr const char* contact_stress_edition = "ISO 6336-2:2019, f_ZCa = 1";
+inline constexpr const char* root_stress_edition = "ISO 6336-3:2006, Y_DT = 1";
+
 /// Nominal stress numbers of a pair under a torque, and the factors that they consist of. A rating by them multiplies load factors onto them.
 struct IsoStressNumbers {
   // Contact [ISO 6336-2:2019]
@@ -23,7 +27,7 @@ struct IsoStressNumbers {
 };
 
 /// sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t/(d_1 b) (u+1)/u),  Z_beta = 1/sqrt(cos beta)
-/// sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta Y_B, load at the outer point of single pair contact (method B), with the fillet of the basic rack at the 30 deg tangent. The deep
+/// sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta Y_B [ISO 6336-3:2006; nothing of the edition of 2019],  Y_beta = 1 - min(1, eps_beta) min(beta, 30 deg)/120 deg, load at the outer point of single pair contact (method B), with the fillet of the basic rack at the 30 deg tangent. The deep
 /// tooth factor Y_DT is 1, which is on the safe side. F_t acts at the reference circle.
 /// @param pinion_torque  [N mm], > 0
 /// @param face_width     common [mm]

@@ -102,6 +102,8 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
                      {"Z_eps", of.iso.Z_eps},
                      {"Z_beta", of.iso.Z_beta},
                      {"Y_beta", of.iso.Y_beta},
+                     {"contact_edition", contact_stress_edition},
+                     {"root_edition", root_stress_edition},
                      {"sigma_H0_MPa", of.iso.contact}};
   for (const Member m : both_gears) json[name_of(m)] = gear_case_json(of, m);
   if (has_gradients(results) && loaded.cycle.usable()) json["gradients"] = gradients_of(results, of);

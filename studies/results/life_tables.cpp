@@ -2,6 +2,7 @@
 #include "studies/results/life_tables.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,6 +43,17 @@ std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
     }
   }
   return out;
+}
+
+/// By which editions S_H and S_F are, where some load case has them.
+std::string edition_line(const std::vector<CaseLife>& cases) {
+  const auto is_known = [](const PerGear<double>& of) { return !std::isnan(of.pinion) || !std::isnan(of.wheel); };
+  std::vector<std::string> editions;
+  if (std::ranges::any_of(cases, [&](const CaseLife& c) { return is_known(c.iso_contact_safety); }))
+    editions.push_back(fmt::format("S_H by {}", contact_stress_edition));
+  if (std::ranges::any_of(cases, [&](const CaseLife& c) { return is_known(c.iso_root_safety); }))
+    editions.push_back(fmt::format("S_F by {}", root_stress_edition));
+  return editions.empty() ? std::string() : fmt::format("{} (method B)\n", fmt::join(editions, "; "));
 }
 
 /// "pinion of case_hardened MQ, 700 HV: sigma_Hlim 1400 MPa of the study (ISO 6336-5: 1500), sigma_Flim 425 MPa of ISO 6336-5"
@@ -103,7 +115,7 @@ std::string life_table(const StudyResults& results, std::size_t width) {
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
-  out += load_factor_line(life.cases);
+  out += edition_line(life.cases) + load_factor_line(life.cases);
   for (const Member m : both_gears) out += grade_line(results.study.life, m);
   return out;
 }

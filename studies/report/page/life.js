@@ -166,7 +166,7 @@ function life_table(body, life) {
       rows: cases.slice(0, MOST_LIFE_ROWS).map((of) => [`${of.scene}`, of.torque_Nm ?? null, { text: DESIGN_LABEL[of.design] ?? `${of.design}`, class: "word" },
         ...quantities.map(([, , value_of]) => value_of(of) ?? null), ...last.map(({ cell }) => cell(of))]) });
   };
-  numbers_table("Strength in numbers", "The worse of both gears. S_H and S_F are those of ISO 6336-2 and -3.", of_strength,
+  numbers_table("Strength in numbers", "The worse of both gears. S_H is that of ISO 6336-2:2019, S_F that of ISO 6336-3:2006, both by method B; f_ZCa and Y_DT are 1.", of_strength,
     are_mixed ? [{ label: "K_H of S_H, S_F", cell: (of) => ({ text: load_factors_from(of), class: "word" }) }] : []);
   numbers_table("Loss, film and temperatures in numbers", "± is the estimated discretisation error where it is available.", of_oil);
 }
