@@ -16,6 +16,7 @@
 #include "studies/exchange/grid/grid_table.hpp"
 #include "studies/exchange/vtk/vtk_series.hpp"
 #include "studies/base/results_folder.hpp"
+#include "studies/exchange/rexs/grouped_warnings.hpp"
 #include "studies/exchange/rexs/rexs_export.hpp"
 #include "studies/exchange/rexs/rexs_import.hpp"
 #include "studies/study_file/stored_study.hpp"
@@ -72,7 +73,6 @@ int import_command(const ImportCommand& options) {
                          .hours = options.hours,
                          .grid_stem = stem.string()});
   const bool one = options.stage || imported.stages.size() + imported.left_out.size() == 1;
-  std::vector<std::string> warnings;
   if (out.has_parent_path()) make_folder(out.parent_path());
   for (const auto& [number, stage] : imported.stages) {
     if (one && out.empty()) {
@@ -86,13 +86,12 @@ int import_command(const ImportCommand& options) {
       write_whole(study, stage.text);
       print(fmt::format("study: {}\n", study.string()));
     }
-    for (const std::string& warning : stage.warnings) {
-      warnings.push_back(one ? warning : fmt::format("stage {}: {}", number, warning));
-    }
   }
   flush_standard_output();
   for (const std::string& left_out : imported.left_out) spdlog::warn("left out: {}", printable(left_out));
-  for (const std::string& warning : warnings) spdlog::warn("{}", printable(warning));
+  std::vector<rexs::StageWarnings> stages;
+  for (const auto& [number, stage] : imported.stages) stages.push_back({number, stage.warnings});
+  for (const std::string& warning : one ? stages.front().warnings : rexs::grouped_by_stage(stages)) spdlog::warn("{}", printable(warning));
   return 0;
 }
 

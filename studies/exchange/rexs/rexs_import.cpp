@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/base/units.hpp"
+#include "studies/exchange/rexs/grouped_warnings.hpp"
 #include "studies/exchange/rexs/modification_text.hpp"
 #include "studies/exchange/rexs/rexs_defects.hpp"
 #include "studies/exchange/rexs/rexs_load_cases.hpp"
@@ -81,7 +82,7 @@ class Import {
     std::string not_taken = write_rest(body);
     const std::string text = head() + body.text();
     check(text);
-    return {text, std::move(grids_), reading_.warnings(), std::move(not_taken)};
+    return {text, std::move(grids_), grouped_by_component(reading_.warnings()), std::move(not_taken)};
   }
 
  private:
@@ -160,7 +161,7 @@ class Import {
     if (!reading_.warnings().empty()) {
       text.comment("");
       text.comment("Not as in the file:");
-      for (const std::string& warning : reading_.warnings()) text.comment("  - " + warning);
+      for (const std::string& warning : grouped_by_component(reading_.warnings())) text.comment("  - " + warning);
     }
     text.key("title", quoted((parts_.stage->name.empty() ? Reading::name_of(*parts_.stage) : parts_.stage->name) + ", " + file));
     text.key("task", "\"analyse\"");
@@ -271,7 +272,12 @@ UnitImport import_unit(const std::string& text, const std::string& name, const R
     try {
       all.stages.push_back({number, import_stage(text, name, of_stage)});
     } catch (const StudyErrors& errors) {
-      all.left_out.push_back(Reading::name_of(stage) + ": " + errors.what());
+      std::vector<std::string> whys;  // without the file, which all have
+      for (const StudyProblem& problem : errors.problems()) {
+        whys.push_back(fmt::format("{} = {}: {}{}", problem.key, problem.value, problem.allowed,
+                                   problem.line > 0 ? fmt::format(" (line {})", problem.line) : ""));
+      }
+      all.left_out.push_back(fmt::format("{}: {}", Reading::name_of(stage), fmt::join(whys, "; ")));
       for (const StudyProblem& problem : errors.problems()) {
         // Stages of one unit may share what is wrong.
         if (std::ranges::find(reasons, to_string(problem), to_string) == reasons.end()) reasons.push_back(problem);
@@ -279,6 +285,7 @@ UnitImport import_unit(const std::string& text, const std::string& name, const R
     }
   }
   if (all.stages.empty()) throw StudyErrors(std::move(reasons));
+  all.left_out = grouped_by_component(all.left_out);
   return all;
 }
 

@@ -37,10 +37,12 @@ std::string base_of(Reading& reading, const Component& oil) {
     if (type == "mineral_oil") return "mineral";
     if (type == "polyalfaolefin") return "polyalphaolefin";
     if (type == "water_soluble_polyglycol" || type == "non_water_soluble_polyglycol") return "polyglycol";
-    if (!type.empty()) reading.warn(fmt::format("{}: its type {} is taken as mineral oil", Reading::name_of(oil), type));
+    if (!type.empty())
+      reading.warn(fmt::format("{}: {} = \"{}\" names no oil of a study, and mineral oil is taken", Reading::name_of(oil), attribute, type));
   }
   const std::string basis = reading.word(&oil, "basis");
-  if (!basis.empty() && basis != "mineral") reading.warn(fmt::format("{}: its basis {} is taken as mineral oil", Reading::name_of(oil), basis));
+  if (!basis.empty() && basis != "mineral")
+    reading.warn(fmt::format("{}: basis = \"{}\" names no oil of a study, and mineral oil is taken", Reading::name_of(oil), basis));
   return basis == "mineral" ? basis : "";
 }
 
@@ -66,7 +68,8 @@ void write_lubricant(Reading& reading, const StageParts& parts, const std::optio
   const Component* oil = lubricant_of(reading, parts);
   if (oil == nullptr) return;
   const auto leave_out = [&](const std::string& why) { reading.leave_out(*oil, why); };
-  if (const std::string kind = reading.word(oil, "kind"); !kind.empty() && kind != "oil") return leave_out("a study knows oils, and it is " + kind);
+  if (const std::string kind = reading.word(oil, "kind"); !kind.empty() && kind != "oil")
+    return leave_out(fmt::format("kind = \"{}\", and a study knows oils (kind = \"oil\")", kind));
   const auto thin = reading.number(oil, "viscosity_at_100_degree_celsius", Dimension::Viscosity);
   const auto thick = reading.number(oil, "viscosity_at_40_degree_celsius", Dimension::Viscosity);
   if (!thin || !thick) return leave_out("it lacks a viscosity at 40 or 100 deg C");

@@ -142,7 +142,7 @@ class ShaftReading {
     if (radial && *radial > 0.0) {
       held.radial_stiffness = finite(*radial);
     } else {
-      note(bearing, "it has no radial_stiffness and is taken as rigid");
+      note(bearing, "without radial_stiffness, taken as rigid");
     }
     if (axial) held.axial_stiffness = finite(*axial);
     take_absorption(bearing, held);
@@ -160,11 +160,11 @@ class ShaftReading {
       if (!(held.axial_stiffness > 0.0)) held.axial_stiffness = std::numeric_limits<double>::infinity();
     } else if (absorption->text == "no_direction") {
       reading_.word(&bearing, absorption->id);
-      if (held.axial_stiffness > 0.0) note(bearing, "its axial_stiffness is not taken, as it supports no axial force");
+      if (held.axial_stiffness > 0.0) note(bearing, "axial_stiffness is not taken, as no axial force is supported");
       held.axial_stiffness = 0.0;
     } else {
-      note(bearing, fmt::format("its axial_force_absorption \"{}\" is not taken: a bearing supports axial forces of both directions or none",
-                                absorption->text));
+      note(bearing,
+           fmt::format("axial_force_absorption = \"{}\" is not taken, a bearing supports axial forces of both directions or none", absorption->text));
     }
   }
 

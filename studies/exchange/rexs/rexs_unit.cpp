@@ -367,7 +367,7 @@ void read_other_cases(Reading& reading, const StageParts& parts, const GearPair&
     const bool counts = std::abs(added) > negligible;
     if (counts) unit.misalignment[torque->load_case] = added;
     reading.warn(
-        fmt::format("{}: its loads from outside are not those of {} scaled with the torque, as a study has them; {}, bearing forces and "
+        fmt::format("{}: loads from outside are not those of {} scaled with the torque, as a study has them; {}, bearing forces and "
                     "bending within the face are not taken",
                     torque->name, reference.name,
                     counts ? fmt::format("the {:.3g} um of misalignment by the difference are taken", added / units::um)

@@ -75,7 +75,7 @@ TEST_CASE("A shaft with its bearings is imported with all numbers", "[studies][r
   CHECK(std::isinf(shaft.bearings[1].radial_stiffness));
   CHECK(shaft.gear_position == 80.0);
   CHECK(shaft.torque_position == 0.0);
-  CHECK_THAT(imported.text, Contains("rolling_bearing_with_catalog_geometry 14: it has no radial_stiffness and is taken as rigid"));
+  CHECK_THAT(imported.text, Contains("rolling_bearing_with_catalog_geometry 14: without radial_stiffness, taken as rigid"));
 }
 
 TEST_CASE("Where no bearing supports a shaft axially its first one does, and this is reported", "[studies][rexs][import]") {

@@ -1,5 +1,6 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/gear_train.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/grouped_warnings_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_archive_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_commands_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_defects_test.cpp
