@@ -3,6 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/base/units.hpp"
+#include "core/gear/both_gears.hpp"
+#include "core/rating/shaft_misalignment.hpp"
 
 namespace flankwright::studies {
 
@@ -27,6 +33,49 @@ void add_unmet_by_load_cases(StudyResults& results) {
           fmt::format("scene \"{}\": the load distribution did not converge at {} mesh positions", loaded.scene, loaded.cycle.failures - apart));
     }
   }
+}
+
+std::optional<FlankMotion> largest_flank_motion(const StudyResults& results, const LoadedResult& loaded) {
+  if (!results.shafts || !loaded.cycle.usable()) return std::nullopt;
+  const MeshModel& model = results.models[loaded.model];
+  const GearPair& pair = model.pair;
+  const ShaftPair shafts = shafts_under(*results.shafts, model, loaded.torque);
+  std::vector<FlankMotion> motions;
+  const double working_depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance;
+  for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
+    const PerGear<ShaftMotion> of = shaft_motions(shafts, model, loaded.cycle, i);
+    double apart = 0.0;
+    for (const Member m : both_gears) apart += shafts.has_shaft(m) ? of[m].displacement : 0.0;
+    motions.push_back({"the pair", false, std::abs(apart), working_depth});
+    motions.push_back({"the pair", true, std::abs(opened_by(shafts, of)), pair.data.normal_module});
+  }
+  if (shafts.has_unit()) {
+    const std::vector<UnitMesh>& meshes = results.study.unit.meshes;
+    const UnitState unit = shafts.state(loaded.torque, model.axial_offset);  // the pair first, then the meshes as the study has them
+    for (std::size_t m = 0; m < meshes.size(); ++m) {
+      const MeshState& state = unit.meshes[m + 1];
+      if (!std::isnan(state.misalignment)) motions.push_back({state.name, true, std::abs(state.misalignment), meshes[m].normal_module});
+    }
+  }
+  return *std::ranges::max_element(motions, {}, &FlankMotion::excess);
+}
+
+void add_unmet_by_shafts(StudyResults& results) {
+  const LoadedResult* worst = nullptr;
+  std::optional<FlankMotion> largest;
+  for (const LoadedResult& loaded : results.loaded) {
+    const std::optional<FlankMotion> of = largest_flank_motion(results, loaded);
+    if (!of || !(of->excess() > (largest ? largest->excess() : 1.0))) continue;
+    largest = of;
+    worst = &loaded;
+  }
+  if (!largest) return;
+  results.requirements.push_back(fmt::format(
+      "scene \"{}\" at {:.6g} N·m: shafts and bearings move the flanks of {} by {:.3g} mm in the plane of action{}, more than the {} of {:.3g} mm: the teeth cannot mesh so, and no "
+      "result of this load case holds",
+      worst->scene, worst->torque / units::newton_metre, largest->mesh, largest->motion,
+      largest->is_misalignment ? " from one end of the face to the other" : "", largest->is_misalignment ? "normal module" : "working depth",
+      largest->limit));
 }
 
 }  // namespace flankwright::studies

@@ -47,6 +47,7 @@ StudyResults StudyRun::finish() {
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
+  add_unmet_by_shafts(results_);
   state_resolution(results_);
   if (results_.fidelity_choice && !results_.fidelity_choice->kept) results_.requirements.push_back(unmet_accuracy(*results_.fidelity_choice));
   results_.seconds = clock.seconds();

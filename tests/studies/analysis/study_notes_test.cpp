@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
+#include "studies/analysis/requirements.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/analysis/study_notes.hpp"
+#include "studies/study_file/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "tests/studies/study_texts.hpp"
 
@@ -114,6 +117,32 @@ TEST_CASE("Teeth are not blamed for what soft bearings yield", "[studies][analys
   const double module = results.at("used").at("pair").at("normal_module_mm");
   REQUIRE(results.at("loaded")[0].at("summary").at("te_mean_um").get<double>() > 1e3 * 0.1 * module);  // as much as would be said of teeth
   for (const Json& note : results.at("notes")) CHECK(note.get<std::string>().find("no small deflection") == std::string::npos);
+}
+
+TEST_CASE("Shafts that move the flanks further than teeth can mesh over are a requirement that is not met", "[studies][analysis][requirements]") {
+  using Catch::Contains;
+  // Two bearings alike, at the same distance from the gear or not: it moves away from its mate, or tilts as well.
+  const auto on_bearings = [](const std::string& stiffness, const std::string& gear_position) {
+    return run_study(parse_study(
+        small::helical_pair() +
+            "[pinion.shaft]\nsections = [{ length = 200, outer_diameter = 80 }]\nbearings = [{ position = 10, radial_stiffness = " + stiffness +
+            " }, { position = 190, radial_stiffness = " + stiffness + " }]\ngear_position = " + gear_position + "\ntorque_position = 0\n",
+        "shaft.toml"));
+  };
+  CHECK(on_bearings("300", "60").requirements.empty());
+  const StudyResults soft = on_bearings("0.01", "60");
+  REQUIRE(soft.requirements.size() == 1);
+  CHECK_THAT(soft.requirements.front(), Contains("300 N·m") && Contains("the teeth cannot mesh so"));
+
+  // Independent route: at mid span both springs bear half of the force in the plane of action, which the bent shaft hardly adds to.
+  const StudyResults centred = on_bearings("0.1", "100");
+  const std::optional<FlankMotion> motion = largest_flank_motion(centred, centred.loaded.front());
+  REQUIRE(motion);
+  const double spring = 100.0, in_plane = centred.loaded.front().torque / centred.pair.pinion.base_radius;  // N/mm, N
+  CHECK_FALSE(motion->is_misalignment);
+  CHECK(motion->motion == Approx(in_plane / (2.0 * spring)).epsilon(0.1));  // model: along the normal, axial force and its moment included
+  CHECK(motion->limit == centred.pair.pinion.tip_radius + centred.pair.wheel.tip_radius - centred.pair.centre_distance);
+  CHECK(centred.requirements.size() == (motion->excess() > 1.0 ? 1 : 0));
 }
 
 TEST_CASE("A key that acts only beside others is said to be unused without them", "[studies][analysis]") {
