@@ -29,6 +29,17 @@ std::vector<const LifeQuantity*> column_order() {
 
 std::string life_number(double value, std::string_view form) { return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value); }
 
+/// "2526 + 1.2 over the spectrum", or that an error as large as the value leaves it unknown.
+std::string damage_in_words(double damage, double error) {
+  constexpr double negligible = 1e-6;  // a damage below this is no damage, however well it is known
+  if (is_unknown(damage, error) && damage + error > negligible) {
+    return fmt::format(
+        "not known at this resolution: {:.4g} over the spectrum with an error of {:.2g} (more cycle.positions or intervals make it smaller),", damage,
+        error);
+  }
+  return fmt::format("{:.4g}{} over the spectrum,", damage, std::isnan(error) ? std::string() : fmt::format(" + {:.2g}", error));
+}
+
 std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
   std::string out;
   for (const auto& [name, points] : {std::pair{"contact damage", &spectrum.contact}, std::pair{"root damage", &spectrum.root}}) {
@@ -37,9 +48,9 @@ std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
       if (!point) continue;
       const std::string where =
           std::isnan(point->radius) ? fmt::format("z {:.2f} mm", point->z) : fmt::format("z {:.2f} mm, radius {:.3f} mm", point->z, point->radius);
-      const std::string error = std::isnan(point->damage_error) ? std::string() : fmt::format(" + {:.2g}", point->damage_error);
-      out += fmt::format("{:<{}}  {} of the {}: {:.4g}{} over the spectrum, largest at {}{}\n", spectrum.scene + " " + spectrum.design, width, name,
-                         name_of(m), point->damage, error, where, point->exceeds_static_limit ? "; a load case exceeds the static limit" : "");
+      out += fmt::format("{:<{}}  {} of the {}: {} largest at {}{}\n", spectrum.scene + " " + spectrum.design, width, name, name_of(m),
+                         damage_in_words(point->damage, point->damage_error), where,
+                         point->exceeds_static_limit ? "; a load case exceeds the static limit" : "");
     }
   }
   return out;
@@ -114,6 +125,12 @@ std::string life_table(const StudyResults& results, std::size_t width) {
     out += line("  known to", "", "", [&](const LifeQuantity& row) { return row.error == nullptr ? std::string() : known_to(of.errors.*row.error); });
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
+  std::vector<std::string> unknown;
+  for (const LifeQuantity* row : shown) {
+    const auto is_lost = [&](const CaseLife& of) { return row->error != nullptr && is_unknown(row->worst(of), of.errors.*row->error); };
+    if (std::ranges::any_of(life.cases, is_lost)) unknown.emplace_back(row->column.heading);
+  }
+  out += unknown_line(unknown);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
   out += edition_line(life.cases) + load_factor_line(life.cases);
   for (const Member m : both_gears) out += grade_line(results.study.life, m);

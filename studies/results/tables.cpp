@@ -90,7 +90,12 @@ std::string loaded_table(const std::vector<LoadedResult>& cases, std::size_t wid
     if (std::isnan(errors.te_peak_to_peak)) continue;
     out += line("  known to", "", [&](const CycleEntry& column) { return known_to(column.error(errors, l.summary)); });
   }
-  return out;
+  std::vector<std::string> unknown;
+  for (const CycleEntry& column : columns) {
+    const auto is_lost = [&](const LoadedResult& l) { return is_unknown(column.value(l.summary), column.error(l.resolved.errors, l.summary)); };
+    if (std::ranges::any_of(cases, is_lost)) unknown.emplace_back(column.quantity->heading);
+  }
+  return out + unknown_line(unknown);
 }
 
 }  // namespace

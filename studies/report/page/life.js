@@ -194,7 +194,9 @@ function life_facts(results, said = []) {
     const worst = last && !said.includes(output) ? worst_of_life(values(last), is_worse) : null;
     if (!worst) return null;
     const [value, error, gear] = worst, before = last === "after" ? worst_of_life(values("before"), is_worse) : null;
-    const shown = is_worse === larger && value < LEAST_DAMAGE ? `below ${power_of_ten(-6)}` : with_error(value, error, 3);
+    const could_be = value + (is_number(error) ? error : 0), is_unknown = is_number(error) && error > Math.abs(value);
+    const shown = is_worse === larger && could_be < LEAST_DAMAGE ? `below ${power_of_ten(-6)}`
+      : is_unknown ? `not known at this resolution (${with_error(value, error, 3)})` : with_error(value, error, 3);
     return [name, `${before ? `${fmt(before[0], 3)} → ` : ""}${shown}${gear ? `, ${gear}` : ""}`, is_bad(value) ? "bad" : null];
   };
   const has_sums = spectra.some((of) => of.design === last);

@@ -116,10 +116,19 @@ std::string gain_in_words(const DesignResult& design) {
   return "the design before that has a peak between the mesh positions that the steps avoid\n";
 }
 
+/// A figure, or its error, of both designs.
+struct PerDesign {
+  double before, after;
+};
+
 /// A line below a row of figures: how far they are from those of infinitely many points and positions.
-std::string error_row(std::size_t width, double before, double after) {
-  if (std::isnan(before) && std::isnan(after)) return {};
-  return fmt::format("{:<{}}  {:>12}  {:>12}\n", "  known to", width, known_to(before), known_to(after));
+/// Where nothing is left of a value, that too.
+/// @param outside  factor of the unit that they are shown in
+std::string error_row(std::size_t width, const PerDesign& values, const PerDesign& errors, double outside = 1.0) {
+  if (std::isnan(errors.before) && std::isnan(errors.after)) return {};
+  const bool is_lost = is_unknown(values.before, errors.before) || is_unknown(values.after, errors.after);
+  return fmt::format("{:<{}}  {:>12}  {:>12}{}\n", "  known to", width, known_to(errors.before * outside), known_to(errors.after * outside),
+                     is_lost ? "  not known at this resolution, as the error is larger than the value" : "");
 }
 
 /// "12 intervals and 32 positions"
@@ -193,13 +202,13 @@ std::string optimise_summary(const StudyResults& results) {
   }
   out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective, design.after.objective,
                      change(design.before.objective, design.after.objective));
-  out += error_row(width, found.before_errors.objective, found.after_errors.objective);
+  out += error_row(width, {design.before.objective, design.after.objective}, {found.before_errors.objective, found.after_errors.objective});
   for (std::size_t k = 0; k < task.later_objectives.size(); ++k) {
     const double before = design.before.later_objectives[k], after = design.after.later_objectives[k];
     out += fmt::format("then {} [{}]\n", objective_in_words(task.later_objectives[k]), task.later_objectives[k].unit());
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, before, after, change(before, after));
     const bool has_error = k < found.before_errors.later_objectives.size() && k < found.after_errors.later_objectives.size();
-    if (has_error) out += error_row(width, found.before_errors.later_objectives[k], found.after_errors.later_objectives[k]);
+    if (has_error) out += error_row(width, {before, after}, {found.before_errors.later_objectives[k], found.after_errors.later_objectives[k]});
   }
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
@@ -210,8 +219,8 @@ std::string optimise_summary(const StudyResults& results) {
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
     if (c < found.after_errors.constraint_values.size()) {
-      out += error_row(width, found.before_errors.constraint_values[c] * output.outside_factor(),
-                       found.after_errors.constraint_values[c] * output.outside_factor());
+      out += error_row(width, {design.before.constraint_values[c], design.after.constraint_values[c]},
+                       {found.before_errors.constraint_values[c], found.after_errors.constraint_values[c]}, output.outside_factor());
     }
   }
   out += fmt::format("\n{}: {} after {} analyses of up to {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
