@@ -10,6 +10,7 @@
 #include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/base/units.hpp"
 #include "core/flank/natural_twist.hpp"
+#include "studies/analysis/axial_hold_note.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/compliance/study_compliance.hpp"
 
@@ -360,6 +361,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   note_one_sided_derivative(study, pair, notes);
   if (!study.task->single_gears) note_left_out_effects(study, notes);
   note_other_flanks(study, notes);
+  for (std::string& note : axial_hold_notes(study)) notes.push_back(std::move(note));
   return notes;
 }
 

@@ -49,7 +49,7 @@ std::vector<SchemaKey> shaft_rows() {
   };
   insert(std::ranges::find(rows, "gear.shaft.bearings", &SchemaKey::path), shaft_section_rows<shaft>("gear.shaft"));
   insert(std::ranges::find(rows, "gear.shaft.gear_position", &SchemaKey::path),
-         bearing_rows<bearing>("gear.shaft.bearings[]", {.axial = "(0: slides; where none is given, the first bearing is rigid)",
+         bearing_rows<bearing>("gear.shaft.bearings[]", {.axial = held_by_first,
                                                          .name = "(the shaft and a number: \"pinion 1\")"}));
   insert(rows.end(), shaft_material_rows<shaft>("gear.shaft", "(as the gear's)"));
   return rows;

@@ -59,6 +59,10 @@ std::vector<SchemaKey> bearing_law_rows(const std::string& list) {
   // clang-format on
 }
 
+/// What holds a shaft along its axis, as read_shafts() has it.
+inline constexpr const char* held_by_first =
+    "(0: slides; where nothing holds the shaft axially, neither a bearing nor one to another shaft, its first bearing without a stiffness_matrix is rigid)";
+
 /// What is said of keys that are not given, where it depends on whose bearing it is.
 struct BearingFallbacks {
   const char *axial, *name;

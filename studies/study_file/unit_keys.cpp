@@ -137,9 +137,9 @@ std::vector<SchemaKey> unit_rows() {
   };
   insert(std::ranges::find(rows, "unit.shafts[].bearings", &SchemaKey::path), shaft_section_rows<shaft_of>("unit.shafts[]"));
   insert(std::ranges::find(rows, "unit.meshes", &SchemaKey::path), shaft_material_rows<shaft_of>("unit.shafts[]", "(as the pinion's)"));
-  constexpr BearingFallbacks fallbacks{.axial = "(0: slides)", .name = "(its shaft and a number)"};
-  insert(rows.end(), bearing_rows<of_shaft>("unit.shafts[].bearings[]", fallbacks));
-  insert(rows.end(), bearing_rows<of_joint>("unit.joints[]", fallbacks));
+  constexpr const char* name = "(its shaft and a number)";
+  insert(rows.end(), bearing_rows<of_shaft>("unit.shafts[].bearings[]", {.axial = held_by_first, .name = name}));
+  insert(rows.end(), bearing_rows<of_joint>("unit.joints[]", {.axial = "(0: slides)", .name = name}));
   return rows;
 }
 

@@ -6,6 +6,7 @@
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
+#include "studies/analysis/axial_hold_note.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -51,6 +52,23 @@ std::vector<StudyProblem> shaft_problems(const std::string& text, const std::vec
 }
 
 }  // namespace
+
+TEST_CASE("A shaft under axial force that no given bearing holds axially is held by its first, and a note says so", "[studies][shafts][notes]") {
+  using Catch::Contains;
+  const std::string pair =
+      "[pair]\nnormal_module = 4\nhelix_angle = {}\n[pinion]\nteeth = 20\nface_width = 30\n[wheel]\nteeth = 40\nface_width = 30\n[load]\ntorque = 100\n";
+  const std::string shaft = "[pinion.shaft]\nsections = [{ length = 120, outer_diameter = 40 }]\ngear_position = 60\ntorque_position = 0\n";
+  const auto notes = [&](const std::string& helix, const std::string& bearings) {
+    std::string text = pair;
+    text.replace(text.find("{}"), 2, helix);
+    return axial_hold_notes(parse_study(text + shaft + "bearings = [" + bearings + "]\n", "held.toml"));
+  };
+  const std::string free = "{ position = 10, name = \"A\" }, { position = 110 }";
+  REQUIRE(notes("15", free).size() == 1);
+  CHECK_THAT(notes("15", free).front(), Contains("\"pinion\"") && Contains("bearing \"A\" at 10 mm") && Contains("rigidly along its axis"));
+  CHECK(notes("0", free).empty());  // nothing pushes it
+  CHECK(notes("15", "{ position = 10 }, { position = 110, axial_stiffness = 200 }").empty());
+}
 
 TEST_CASE("A shaft is read with its units, the gear's material and one bearing that holds axially", "[studies][shaft]") {
   const Study study = read_shafts(pair_text + shaft_text, {{"material.youngs_modulus", "210000"}});
