@@ -42,8 +42,9 @@ using Group = std::string;
 Group design_of(const LoadedResult& loaded) { return loaded.design; }
 Group design_and_flank_of(const LoadedResult& loaded) { return loaded.design + (loaded.condition.other_flanks ? " on the other flanks" : ""); }
 
-/// Which load cases have a measure within governs_within of the largest of their group, in any design.
-std::vector<bool> governing_by(const StudyResults& results, const std::vector<Measures>& measures, Group (*group_of)(const LoadedResult&)) {
+/// Which load cases have a measure within a part of the largest of their group, in any design.
+std::vector<bool> governing_by(const StudyResults& results, const std::vector<Measures>& measures, Group (*group_of)(const LoadedResult&),
+                               double within = governs_within) {
   std::map<Group, Measures> largest;
   for (std::size_t i = 0; i < measures.size(); ++i) {
     Measures& of_group = largest.try_emplace(group_of(results.loaded[i]), measures[i]).first->second;
@@ -53,7 +54,7 @@ std::vector<bool> governing_by(const StudyResults& results, const std::vector<Me
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const Measures& of_group = largest.at(group_of(results.loaded[i]));
     for (std::size_t k = 0; k < of_group.size(); ++k) {
-      if (measures[i][k] > 0.0 && measures[i][k] >= (1.0 - governs_within) * of_group[k]) governing.insert(case_key_of(results.loaded[i]));
+      if (measures[i][k] > 0.0 && measures[i][k] >= (1.0 - within) * of_group[k]) governing.insert(case_key_of(results.loaded[i]));
     }
   }
   std::vector<bool> governs;
@@ -61,13 +62,15 @@ std::vector<bool> governing_by(const StudyResults& results, const std::vector<Me
   return governs;
 }
 
-}  // namespace
-
-std::vector<bool> governing_cases(const StudyResults& results) {
+std::vector<Measures> all_measures(const StudyResults& results) {
   std::vector<Measures> measures;
   for (std::size_t i = 0; i < results.loaded.size(); ++i) measures.push_back(measures_of(results, i));
-  return governing_by(results, measures, design_and_flank_of);
+  return measures;
 }
+
+}  // namespace
+
+std::vector<bool> governing_cases(const StudyResults& results) { return governing_by(results, all_measures(results), design_and_flank_of); }
 
 std::vector<bool> most_utilised_cases(const StudyResults& results, const LifeModel& life) {
   std::vector<Measures> measures;
@@ -89,7 +92,10 @@ CasesWithPoints kept_points(const StudyResults& results) {
 }
 
 std::vector<bool> cases_with_points(const StudyResults& results) {
-  return kept_points(results) == CasesWithPoints::All ? std::vector<bool>(results.loaded.size(), true) : governing_cases(results);
+  if (kept_points(results) == CasesWithPoints::All) return std::vector<bool>(results.loaded.size(), true);
+  std::vector<bool> governs = governing_cases(results);
+  const bool few = static_cast<std::size_t>(std::ranges::count(governs, true)) <= most_cases_with_points;
+  return few ? governs : governing_by(results, all_measures(results), design_and_flank_of, 0.0);
 }
 
 std::string points_note(const StudyResults& results) {

@@ -20,14 +20,15 @@ std::vector<bool> governing_cases(const StudyResults& results);
 /// largest of its design.
 std::vector<bool> most_utilised_cases(const StudyResults& results, const LifeModel& life);
 
-/// Load cases of all designs together up to which a study that says nothing of `output.points` keeps the points of all. Each takes 1 to 3 MB of results.json and 0.2 to 0.4 MB of
-/// report.html: these then stay below about 300 MB, which programs still read, and 40 MB, which a browser still opens.
+/// Load cases of all designs together up to which a study that says nothing of `output.points` keeps the points of all, and how many at most govern beyond. Each takes 1 to 3 MB of
+/// results.json and 0.2 to 0.4 MB of report.html: these then stay below about 300 MB, which programs still read, and 40 MB, which a browser still opens.
 inline constexpr std::size_t most_cases_with_points = 100;
 
 /// `output.points` as the study gives it, else all up to most_cases_with_points and those that govern beyond.
 CasesWithPoints kept_points(const StudyResults& results);
 
-/// Which load cases have their contact points in the results, one entry for each of StudyResults::loaded, by kept_points().
+/// Which load cases have their contact points in the results, one entry for each of StudyResults::loaded, by kept_points(). Where more than most_cases_with_points govern, as under many loads
+/// that are nearly the same, only the largest of each measure.
 std::vector<bool> cases_with_points(const StudyResults& results);
 
 /// That and why points are left out, where the study does not say which are kept; empty: they are not.

@@ -34,8 +34,8 @@ std::string damage_in_words(double damage, double error) {
   constexpr double negligible = 1e-6;  // a damage below this is no damage, however well it is known
   if (is_unknown(damage, error) && damage + error > negligible) {
     return fmt::format(
-        "not known at this resolution, {:.4g} over the spectrum with an error of {:.2g}, which more of cycle.positions or of the intervals of fidelity.quadrature make smaller;",
-        damage, error);
+        "not known at this resolution: {:.4g} over the spectrum with an error of {:.2g} (more cycle.positions or intervals make it smaller),", damage,
+        error);
   }
   return fmt::format("{:.4g}{} over the spectrum,", damage, std::isnan(error) ? std::string() : fmt::format(" + {:.2g}", error));
 }

@@ -70,7 +70,10 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
         occurrences(ending.err, "warning: the pinion's process is \"none\"") + occurrences(ending.err, "warning: the wheel's process is \"none\"");
     // So is a lead that the tool does not follow.
     const auto steep = occurrences(ending.err, "warning: of the design found, the ");
-    CHECK(occurrences(ending.err, "warning") - outside - uncertain - on_edges - loads_edge - unground - steep == (is_parabola ? 1 : 0));
+    // Of many load cases it is said which have their contact points, and of shafts under axial force what holds them where the example does not say.
+    const auto of_many = occurrences(ending.err, "governing load cases of"), held = occurrences(ending.err, "to hold it rigidly along its axis");
+    CHECK(occurrences(ending.err, "warning") - outside - uncertain - on_edges - loads_edge - unground - steep - of_many - held ==
+          (is_parabola ? 1 : 0));
     CHECK(occurrences(ending.err, "\"beyond its limit\": the designed parabola") == (is_parabola ? 1 : 0));
   }
 }

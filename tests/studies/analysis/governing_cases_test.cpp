@@ -120,6 +120,18 @@ TEST_CASE("Beyond a number of load cases only the governing ones keep their poin
   }
 }
 
+TEST_CASE("Of many load cases that are nearly the same only the largest keeps its points", "[studies][results]") {
+  StudyResults alike;
+  alike.loaded.assign(2 * most_cases_with_points, {});
+  for (std::size_t i = 0; i < alike.loaded.size(); ++i) {
+    alike.loaded[i].torque = static_cast<double>(i);
+    alike.loaded[i].summary.peak_contact_stress = 1000.0 + 0.01 * static_cast<double>(i);
+  }
+  CHECK(std::ranges::count(governing_cases(alike), true) == std::ssize(alike.loaded));
+  CHECK(std::ranges::count(cases_with_points(alike), true) == 1);
+  CHECK(cases_with_points(alike).back());
+}
+
 TEST_CASE("Load cases govern on the flank that they load", "[studies][results]") {
   StudyResults both;
   both.loaded.assign(3, {});
@@ -137,7 +149,10 @@ TEST_CASE("A load case with the thinnest film, the hottest contact or the least 
   rated.life = StudyLife{};
   for (std::size_t i = 0; i < 5; ++i) {
     rated.loaded[i].torque = static_cast<double>(i);
-    CaseLife of{.loaded = i, .film = 1.0, .contact_temperature = 100.0};
+    CaseLife of;
+    of.loaded = i;
+    of.film = 1.0;
+    of.contact_temperature = 100.0;
     of.contact_safety = {2.0, 2.0};
     if (i == 1) of.film = 0.5;
     if (i == 2) of.contact_temperature = 150.0;

@@ -20,7 +20,9 @@ struct CountedMesh {
       MeshModel mesh;
       for (const double phase : phases) {
         ++made;
-        mesh.positions.push_back({.phase = phase, .influence = Eigen::MatrixXd::Constant(points, points, sign * phase)});
+        MeshPosition& position = mesh.positions.emplace_back();
+        position.phase = phase;
+        position.influence = Eigen::MatrixXd::Constant(points, points, sign * phase);
       }
       return mesh;
     };

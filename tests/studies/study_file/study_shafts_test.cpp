@@ -6,6 +6,7 @@
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
+#include "studies/analysis/axial_hold_note.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -56,7 +57,7 @@ TEST_CASE("A shaft under axial force that no given bearing holds axially is held
   using Catch::Contains;
   const std::string pair =
       "[pair]\nnormal_module = 4\nhelix_angle = {}\n[pinion]\nteeth = 20\nface_width = 30\n[wheel]\nteeth = 40\nface_width = 30\n[load]\ntorque = 100\n";
-  const std::string shaft = "[pinion.shaft]\nsections = [{ length = 120, outer_diameter = 40 }]\ngear_position = 60\n";
+  const std::string shaft = "[pinion.shaft]\nsections = [{ length = 120, outer_diameter = 40 }]\ngear_position = 60\ntorque_position = 0\n";
   const auto notes = [&](const std::string& helix, const std::string& bearings) {
     std::string text = pair;
     text.replace(text.find("{}"), 2, helix);

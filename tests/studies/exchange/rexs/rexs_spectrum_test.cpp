@@ -117,6 +117,20 @@ TEST_CASE("The lubricant of the casing is imported, with a roughness that is nam
   CHECK_THROWS_WITH(file.stage(1), Contains("viscosity_at_100_degree_celsius = 110 mm^2/s"));
 }
 
+TEST_CASE("An oil that a study does not know is named by attribute and value", "[studies][rexs][import][spectrum]") {
+  const auto with = [](const rexs::Attribute& attribute) {
+    SpectrumUnit file;
+    file.load_case({400, 543, 100});
+    file.train.set(file.train.last("lubricant"), attribute);
+    return file.stage(1);
+  };
+  const rexs::ImportedStudy no_kind = with(word("kind", "false")), no_type = with(word("lubricant_type_iso_6336_2006", "false"));
+  CHECK_FALSE(spectrum_study_of(no_kind).life.has_lubricant);
+  CHECK_THAT(no_kind.text, Contains("not taken, kind = \"false\", and a study knows oils"));
+  CHECK(spectrum_study_of(no_type).life.has_lubricant);
+  CHECK_THAT(no_type.text, Contains("lubricant_type_iso_6336_2006 = \"false\" names no oil of a study, and mineral oil is taken"));
+}
+
 TEST_CASE("Negative times are refused with component, attribute, value and line", "[studies][rexs][import][errors][spectrum]") {
   SpectrumUnit file;
   file.load_case({400, 543, 105});
