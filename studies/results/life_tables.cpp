@@ -64,7 +64,7 @@ std::string edition_line(const std::vector<CaseLife>& cases) {
     editions.push_back(fmt::format("S_H by {}", contact_stress_edition));
   if (std::ranges::any_of(cases, [&](const CaseLife& c) { return is_known(c.iso_root_safety); }))
     editions.push_back(fmt::format("S_F by {}", root_stress_edition));
-  return editions.empty() ? std::string() : fmt::format("{} (method B)\n", fmt::join(editions, "; "));
+  return editions.empty() ? std::string() : fmt::format("method B: {}\n", fmt::join(editions, "; "));
 }
 
 /// "pinion of case_hardened MQ, 700 HV: sigma_Hlim 1400 MPa of the study (ISO 6336-5: 1500), sigma_Flim 425 MPa of ISO 6336-5"
