@@ -107,8 +107,10 @@ std::string choice_in_words(const GrindingChoice& choice, const DesignTask& task
   const auto amount = [&](const GrindingChoice::Amount& of) {
     return fmt::format("{}, {:.3g} {}", plain_name(key_of(of.member, of.parameter)), outside(of.parameter, of.found), unit(of.parameter));
   };
+  // An amount that is large enough may have no step of its variable between itself and the next limit.
+  const auto on_steps = [&](const GrindingChoice::Amount& of) { return std::abs(of.found) >= task.grindable.smallest ? " on its steps" : ""; };
   std::string words = choice.is_of_pair() ? fmt::format("{}, and {}, are not ground together", amount(choice.amounts[0]), amount(choice.amounts[1]))
-                                          : fmt::format("{}, is below the smallest amount", amount(choice.amounts[0]));
+                                          : fmt::format("{}, is below the smallest amount{}", amount(choice.amounts[0]), on_steps(choice.amounts[0]));
   // Of a list alternatives are judged by the last objective.
   const Objective judged = task.later_objectives.empty() ? task.combined_objective() : task.later_objectives.back();
   const std::string name = !statistic.empty() ? "a " + statistic + " of " : task.later_objectives.empty() ? "" : plain_name(judged.name()) + " ";

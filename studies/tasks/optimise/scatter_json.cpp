@@ -218,7 +218,7 @@ std::string scatter_summary(const ScatterResult& result, const DesignTask& task,
     if (!is_objective(task, Output::PeakContactStress)) out += fmt::format(", peak contact stress {:.5g} MPa", c.contact_stress);
     if (!is_objective(task, Output::TePeakToPeak)) out += fmt::format(", transmission error {:.3g} um", c.te);
     if (c.design.status == SolverStatus::Infeasible)
-      out += fmt::format("; no design keeps the limits, this one exceeds them by {:.2g} %", percent * c.design.violation);
+      out += fmt::format("; no design keeps the limits, this one exceeds them by {:.3g} %", percent * c.design.violation);
     out += "\n";
   }
   return out;
