@@ -71,7 +71,7 @@ void add_unmet_by_shafts(StudyResults& results) {
   }
   if (!largest) return;
   results.requirements.push_back(fmt::format(
-      "scene \"{}\" at {:.6g} N·m: shafts and bearings move the flanks of {} by {:.3g} mm in the plane of action{}, more than the {} of {:.3g} mm: the teeth cannot mesh so, and no "
+      "scene \"{}\" at {:.6g} N·m: shafts and bearings move the flanks of {} by {:.3g} mm in the plane of action{}, more than the {} of {:.3g} mm: the teeth cannot mesh, and no "
       "result of this load case holds",
       worst->scene, worst->torque / units::newton_metre, largest->mesh, largest->motion,
       largest->is_misalignment ? " from one end of the face to the other" : "", largest->is_misalignment ? "normal module" : "working depth",

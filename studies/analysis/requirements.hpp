@@ -10,9 +10,10 @@ namespace flankwright::studies {
 /// Adds to the requirements that were not met (exit code 1), one line each: load cases in which nothing touches, or whose loads did not converge.
 void add_unmet_by_load_cases(StudyResults& results);
 
-/// How far shafts and bearings move the flanks of the pair and of the unit's other meshes in a load case, in the plane of action [mm]. Teeth cannot mesh over more than
-/// their limit: of the misalignment over the common face a normal module, by which one end of the face is further from contact than the other, half the working depth of usual teeth, and of
-/// the motion at mid face the working depth, r_a1 + r_a2 - a, beyond which the teeth no longer reach each other.
+/// How far shafts and bearings move the flanks of the pair and of the unit's other meshes in a load case, in the plane of action [mm]. Teeth cannot mesh over more than the limit:
+///
+/// - of the misalignment over the common face a normal module, which is half the working depth of usual teeth,
+/// - of the motion at mid face the working depth, r_a1 + r_a2 - a. Beyond it the teeth no longer reach each other.
 struct FlankMotion {
   std::string mesh;      ///< "the pair", or the name of another mesh
   bool is_misalignment;  ///< else the motion at mid face

@@ -26,7 +26,7 @@ class StepProgress {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds silence{2};  // nobody wonders so soon what goes on
+  static constexpr std::chrono::seconds silence{2};  // a shorter step needs no report
 
   const ProgressReport& progress_;
   std::string label_;

@@ -30,7 +30,7 @@ Quadrature rating_quadrature(const Fidelity& fidelity) {
   return quadrature;
 }
 
-/// Half the intervals of the analysis, 12 at most where it chooses them: where an edge begins to touch hangs on the gap and the approach, which few points know.
+/// Half the intervals of the analysis, 12 at most where it chooses them: where an edge begins to touch depends on the gap and the approach, which few points give well.
 Quadrature edge_quadrature(const Fidelity& fidelity) {
   constexpr int enough = 12;
   Quadrature quadrature = fidelity.quadrature;

@@ -156,9 +156,8 @@ class GrindableSearch {
 
   static bool is_better(const GrindingAlternative& one, const GrindingAlternative& than) {
     if (std::isnan(one.objective) || std::isnan(than.objective)) return std::isnan(than.objective) && !std::isnan(one.objective);
-    const auto excess = [](double violation) { return std::max(0.0, violation - DesignLog::tolerance); };
-    const auto rank = [&](const GrindingAlternative& of) {
-      return std::tuple(excess(of.modification_violation), excess(of.constraint_violation), of.objective);
+    const auto rank = [](const GrindingAlternative& of) {
+      return std::tuple(DesignLog::beyond_tolerance(of.modification_violation), DesignLog::beyond_tolerance(of.constraint_violation), of.objective);
     };
     return rank(one) < rank(than);
   }

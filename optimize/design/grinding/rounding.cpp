@@ -23,9 +23,6 @@ constexpr std::size_t scenes_tried_first = 4;
 /// Number of designs whose first scenes are analysed in parallel. It does not depend on the threads, so that nothing else does.
 constexpr std::size_t tried_together = 16;
 
-/// A violation, or 0 where it is within what a search keeps to.
-double beyond_tolerance(double violation) { return violation > DesignLog::tolerance ? violation : 0.0; }
-
 constexpr double round_off = 1e-9;  // of a step: a bound that is a multiple of it counts as one
 
 /// Sets a variable to a number of its steps, the nearest within DesignProblem::set_box().
@@ -124,7 +121,8 @@ class StepSearch {
       steps[static_cast<Eigen::Index>(k)] = (problem_.unscaled(x, i) - problem_.unscaled(exact_, i)) / variable(i).step;
     }
     const double of_modification = problem_.violation(problem_.modification(x));
-    return {beyond_tolerance(of_modification), beyond_tolerance(std::max(model_->violation(steps), of_modification)), model_->objective(steps)};
+    return {DesignLog::beyond_tolerance(of_modification), DesignLog::beyond_tolerance(std::max(model_->violation(steps), of_modification)),
+            model_->objective(steps)};
   }
   /// Whether the model leaves hope that a design is better than the best.
   bool is_promising(const Eigen::VectorXd& x) const {
@@ -132,7 +130,7 @@ class StepSearch {
     const Predicted predicted = predict(x);
     const double violation = std::max(dear_rounding, violation_margin_);
     if (!is_feasible(best_)) {
-      const double of_best = beyond_tolerance(best_.modification_violation);
+      const double of_best = DesignLog::beyond_tolerance(best_.modification_violation);
       if (predicted.modification_violation != of_best) return predicted.modification_violation < of_best;
       return predicted.violation < best_.constraint_violation + violation;
     }
@@ -185,8 +183,8 @@ class StepSearch {
     const bool feasible = is_feasible(design);
     if (feasible != is_feasible(best_)) return feasible;
     if (feasible) return design.objective < best_.objective;
-    return std::pair(beyond_tolerance(design.modification_violation), design.constraint_violation) <
-           std::pair(beyond_tolerance(best_.modification_violation), best_.constraint_violation);
+    return std::pair(DesignLog::beyond_tolerance(design.modification_violation), design.constraint_violation) <
+           std::pair(DesignLog::beyond_tolerance(best_.modification_violation), best_.constraint_violation);
   }
 
   /// Takes the first of these designs that is promising and better than the best, and tells which.

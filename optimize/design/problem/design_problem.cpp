@@ -147,11 +147,8 @@ DesignProblem DesignProblem::judged_by_excess() const {
       others.push_back(bound);
       continue;
     }
-    ObjectiveTerm output = bound.output;
-    output.weight = 1.0;
-    output.reciprocal = bound.is_least();
-    const double limit = (bound.is_least() ? 1.0 / bound.minimum : bound.maximum) * output.outside_factor();
-    excesses.push_back({{{output}, Aggregate::Worst}, limit, std::abs(limit), bound.is_least()});
+    const auto [objective, limit] = bound_on(bound, Aggregate::Worst);
+    excesses.push_back({objective, limit, std::abs(limit), bound.is_least()});
   }
   for (const ObjectiveBound& bound : task_.objective_bounds) excesses.push_back({bound.objective, bound.limit, bound.limit});
   DesignProblem other = judged_by(task_.combined_objective(), {}, std::move(excesses));

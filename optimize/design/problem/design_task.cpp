@@ -70,4 +70,11 @@ std::string Objective::name() const {
 
 const char* Objective::unit() const { return terms.size() == 1 ? terms.front().unit() : "weighted sum"; }
 
+ObjectiveBound bound_on(const OutputConstraint& constraint, const Aggregation& over) {
+  ObjectiveTerm output = constraint.output;
+  output.weight = 1.0;
+  output.reciprocal = constraint.is_least();
+  return {{{output}, over}, (constraint.is_least() ? 1.0 / constraint.minimum : constraint.maximum) * output.outside_factor()};
+}
+
 }  // namespace flankwright

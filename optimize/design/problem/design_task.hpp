@@ -117,6 +117,9 @@ struct ObjectiveBound {
   double limit{std::numeric_limits<double>::infinity()};  ///< outside unit, > 0
 };
 
+/// A constraint on an output as a bound on its aggregate: for a lower limit on that of the reciprocal, which is large where the output is too small.
+ObjectiveBound bound_on(const OutputConstraint& constraint, const Aggregation& over);
+
 /// An objective's part in a scalarisation: the largest part of all is minimised.
 ///
 ///     part = (value - origin) / range,   or, of an objective that is a reciprocal 1/f under a limit 1/m = origin,   1 - origin / value = (m - f) / m

@@ -141,9 +141,9 @@ class DrawSearch {
   /// The design on the steps of the variables that the model has least.
   Eigen::VectorXd least_on_steps(const DesignProblem& problem, const Eigen::VectorXd& x) const {
     return flankwright::least_on_steps(problem, x, [&](const Eigen::VectorXd& at) {
-      const auto excess = [](double violation) { return violation <= DesignLog::tolerance ? 0.0 : violation; };
       const double of_modification = problem.violation(problem.modification(at));
-      return StepFigure{excess(of_modification), excess(std::max(of_modification, model_.excess(at, all_draws))),
+      return StepFigure{DesignLog::beyond_tolerance(of_modification),
+                        DesignLog::beyond_tolerance(std::max(of_modification, model_.excess(at, all_draws))),
                         model_.objective.statistic(model_.objective.measures(at, all_draws))};
     });
   }
@@ -312,9 +312,9 @@ DrawSearch::Judged round(DrawSearch& search, const DesignProblem& full, ScatterD
     if (std::ranges::find(tried, x) != tried.end()) break;
     tried.push_back(x);
     const DrawSearch::Judged judged = search.try_design(full, x, best ? &*best : nullptr);
-    const auto excess = [&](const DrawSearch::Judged& of) { return std::max(0.0, full.violation(full.modification(of.x)) - DesignLog::tolerance); };
-    const bool can_be_ground_better = best && excess(judged) < excess(*best), worse = best && excess(judged) > excess(*best);
-    if (!best || can_be_ground_better || (!worse && best->gain_to(judged) > 0.0)) best = judged;
+    // A design that keeps more of the limits on modifications can be ground, whatever its statistics are.
+    const auto excess = [&](const DrawSearch::Judged& of) { return DesignLog::beyond_tolerance(full.violation(full.modification(of.x))); };
+    if (!best || excess(judged) < excess(*best) || (excess(judged) == excess(*best) && best->gain_to(judged) > 0.0)) best = judged;
   }
   design.x = best->x;
   return search.report_all(full, design.x);

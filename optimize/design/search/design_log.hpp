@@ -27,6 +27,8 @@ class DesignLog {
   const Entry* best() const { return best_ < 0 ? nullptr : &entries_[static_cast<std::size_t>(best_)]; }
   /// A relative excess over a bound that is still called feasible [-].
   static constexpr double tolerance = 1e-6;
+  /// A relative excess over a bound, or 0 where it is still called feasible [-].
+  static constexpr double beyond_tolerance(double excess) { return excess > tolerance ? excess : 0.0; }
 
  private:
   Progress progress_;

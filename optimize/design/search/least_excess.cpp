@@ -19,8 +19,7 @@ struct End {
 
 End end_of(DesignProblem& problem, const Eigen::VectorXd& x) {
   const DesignAnalysis& analysis = problem.analyse(x, false);
-  return {x, std::max(0.0, problem.violation(analysis.modification) - DesignLog::tolerance), problem.violation(analysis),
-          problem.objective(analysis)};
+  return {x, DesignLog::beyond_tolerance(problem.violation(analysis.modification)), problem.violation(analysis), problem.objective(analysis)};
 }
 
 /// The excess that counts as the same as another by a share [-].

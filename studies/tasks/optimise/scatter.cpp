@@ -19,7 +19,7 @@ namespace {
 DesignTask over_draws(DesignTask task, std::vector<DesignScene> draws, const Aggregation& statistic) {
   task.scenes = std::move(draws);
   task.over = statistic;
-  for (const OutputConstraint& bound : task.constraints) task.objective_bounds.push_back(bound_over_draws(bound, statistic));
+  for (const OutputConstraint& bound : task.constraints) task.objective_bounds.push_back(bound_on(bound, statistic));
   task.constraints.clear();
   return task;
 }
@@ -32,8 +32,8 @@ std::vector<DesignScene> draw(const Study& study, const std::vector<SceneToleran
 /// Whether it is the better design: it can be analysed, it exceeds the limits by less, or its statistic is less.
 bool is_better(const ScatterDesign& design, const ScatterDesign& than) {
   if (std::isnan(design.value) || std::isnan(than.value)) return !std::isnan(design.value);
-  const auto excess = [](const ScatterDesign& of) { return of.violation > DesignLog::tolerance ? of.violation : 0.0; };
-  return excess(design) != excess(than) ? excess(design) < excess(than) : design.value < than.value;
+  const double excess = DesignLog::beyond_tolerance(design.violation), than_excess = DesignLog::beyond_tolerance(than.violation);
+  return excess != than_excess ? excess < than_excess : design.value < than.value;
 }
 
 double statistic_of(const std::vector<double>& measures, const Aggregation& statistic) {
@@ -156,7 +156,7 @@ class ScatterRun {
   double excess(const PredictedDesign& of) const {
     double most = 0.0;
     for (std::size_t c = 0; c < of.predicted_limits.size(); ++c)
-      most = std::max(most, of.predicted_limits[c].value / bound_over_draws(task_.constraints[c], asked_.statistic).limit - 1.0);
+      most = std::max(most, of.predicted_limits[c].value / bound_on(task_.constraints[c], asked_.statistic).limit - 1.0);
     return most;
   }
 
@@ -261,12 +261,6 @@ class ScatterRun {
 };
 
 }  // namespace
-
-ObjectiveBound bound_over_draws(const OutputConstraint& constraint, const Aggregation& statistic) {
-  ObjectiveTerm output = constraint.output;
-  output.reciprocal = constraint.is_least();
-  return {{{output}, statistic}, (constraint.is_least() ? 1.0 / constraint.minimum : constraint.maximum) * output.outside_factor()};
-}
 
 bool is_objective(const DesignTask& task, Output output) {
   return task.objective.size() == 1 && task.objective.front().output == output && task.objective.front().weight == 1.0;

@@ -66,10 +66,7 @@ struct ScatterResult : PredictedDesign {
   double search_error() const { return fresh.empty() ? not_given : design.value / fresh.back().statistic - 1.0; }
 };
 
-/// A constraint on an output as the statistic that is bounded: for a lower limit that of the reciprocal, which is large where the output is too small.
-ObjectiveBound bound_over_draws(const OutputConstraint& constraint, const Aggregation& statistic);
-
-/// What a statistic of bound_over_draws() says of the output itself: of a lower limit it is the reciprocal.
+/// What a statistic that bound_on() bounds says of the output itself: of a lower limit it is the reciprocal.
 inline double of_output(const OutputConstraint& constraint, double statistic) { return constraint.is_least() ? 1.0 / statistic : statistic; }
 
 /// Whether an output is the objective by itself.

@@ -48,7 +48,7 @@ std::vector<std::string> limits_exceeded_over_draws(const ScatterResult& result,
   for (std::size_t c = 0; c < result.predicted_limits.size(); ++c) {
     const OutputConstraint& limit = task.constraints[c];
     const PredictedStatistic& predicted = result.predicted_limits[c];
-    const double bound = bound_over_draws(limit, statistic).limit;
+    const double bound = bound_on(limit, statistic).limit;
     if (!(predicted.value > (1.0 + told_apart) * bound)) continue;
     exceeded.push_back(fmt::format("{} of {} over drawn gears does not keep {} {:.4g}{}: {:.4g} is predicted from draws that the search has not seen",
                                    statistic_in_words(statistic, limit), plain_name(limit.output.name), limit.is_least() ? ">=" : "<=",
