@@ -2,10 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/wide_sum.hpp"
 
 namespace flankwright {
 namespace {
@@ -67,6 +69,39 @@ FaceShape face_shape(double xi, double eta) {
   return shape;
 }
 
+namespace {
+
+struct IntegrationPoint {
+  BrickShape shape;
+  double weight;
+};
+
+/// 3 x 3 x 3 of Gauss.
+const std::array<IntegrationPoint, 27>& integration_points() {
+  static const auto points = [] {
+    std::array<IntegrationPoint, 27> all;
+    for (std::size_t p = 0; p < 27; ++p) {
+      const std::size_t i = p / 9, j = p / 3 % 3, k = p % 3;
+      all[p] = {brick_shape({gauss3_abscissae[i], gauss3_abscissae[j], gauss3_abscissae[k]}),
+                gauss3_weights[i] * gauss3_weights[j] * gauss3_weights[k]};
+    }
+    return all;
+  }();
+  return points;
+}
+
+/// At the corners.
+const std::array<BrickShape, 8>& corner_shapes() {
+  static const auto shapes = [] {
+    std::array<BrickShape, 8> all;
+    for (std::size_t i = 0; i < 8; ++i) all[i] = brick_shape({1.0 * kBrickLocal[i][0], 1.0 * kBrickLocal[i][1], 1.0 * kBrickLocal[i][2]});
+    return all;
+  }();
+  return shapes;
+}
+
+}  // namespace
+
 void check_elastic(const Material& material) {
   if (!(material.youngs_modulus > 0)) {
     throw InvalidInput("material.youngs_modulus", std::to_string(material.youngs_modulus), "more than 0 MPa");
@@ -77,22 +112,16 @@ void check_elastic(const Material& material) {
 }
 
 Eigen::Matrix<double, 60, 60> brick_stiffness(const BrickNodes& nodes, const Material& material) {
-  // Columns: all derivatives g_ia = dN_i/dx_a at one integration point, times the root of its weight.
-  Eigen::Matrix<double, 60, 27> gradients;
+  // Columns: all derivatives g_ia = dN_i/dx_a at one integration point, times the root of its weight. The last column is 0: wide_product() takes four at once.
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(60, 28);
   int point = 0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      for (int k = 0; k < 3; ++k) {
-        const BrickShape shape = brick_shape({gauss3_abscissae[i], gauss3_abscissae[j], gauss3_abscissae[k]});
-        const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
-        const double weight = gauss3_weights[i] * gauss3_weights[j] * gauss3_weights[k] * jacobian.determinant();
-        const Eigen::Matrix<double, 3, 20> gradient = (shape.derivatives * jacobian.inverse()).transpose();
-        gradients.col(point++) = std::sqrt(std::max(0.0, weight)) * Eigen::Map<const Eigen::Matrix<double, 60, 1>>(gradient.data());
-      }
-    }
+  for (const IntegrationPoint& at : integration_points()) {
+    const Eigen::Matrix3d jacobian = nodes * at.shape.derivatives;
+    const double weight = at.weight * jacobian.determinant();
+    const Eigen::Matrix<double, 3, 20> gradient = (at.shape.derivatives * jacobian.inverse()).transpose();
+    gradients.col(point++) = std::sqrt(std::max(0.0, weight)) * Eigen::Map<const Eigen::Matrix<double, 60, 1>>(gradient.data());
   }
-  Eigen::Matrix<double, 60, 60> products;
-  products.noalias() = gradients * gradients.transpose();
+  const Eigen::MatrixXd products = wide_product(gradients, gradients.transpose());
 
   // K_ia,jb = integral of lambda g_ia g_jb + mu g_ib g_ja + mu delta_ab g_i . g_j
   const Lame lame(material);
@@ -112,17 +141,13 @@ Eigen::Matrix<double, 60, 60> brick_stiffness(const BrickNodes& nodes, const Mat
 
 double brick_quality(const BrickNodes& nodes) {
   double smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
-  const auto look = [&](double x, double y, double z) {
-    const Eigen::Matrix3d jacobian = nodes * brick_shape({x, y, z}).derivatives;
+  const auto look = [&](const BrickShape& shape) {
+    const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
     smallest = std::min(smallest, jacobian.determinant());
     largest = std::max(largest, jacobian.determinant());
   };
-  for (const double x : gauss3_abscissae) {
-    for (const double y : gauss3_abscissae) {
-      for (const double z : gauss3_abscissae) look(x, y, z);
-    }
-  }
-  for (int i = 0; i < 8; ++i) look(kBrickLocal[i][0], kBrickLocal[i][1], kBrickLocal[i][2]);
+  for (const IntegrationPoint& at : integration_points()) look(at.shape);
+  for (const BrickShape& shape : corner_shapes()) look(shape);
   return largest > 0 ? smallest / largest : -1;
 }
 

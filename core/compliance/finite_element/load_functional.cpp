@@ -143,8 +143,8 @@ Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankP
   const Eigen::Vector3d source = foot + source_height * frame.depth * n;
   const auto weight = [&](const Eigen::Vector3d& x, const Eigen::Vector3d& area) {  // area: nu dA
     const Eigen::Vector3d d = x - source;
-    const double a = -n.dot(d);
-    return a > 0 ? 1.5 / units::pi * a * a * std::abs(d.dot(area)) / std::pow(d.squaredNorm(), 2.5) : 0.0;
+    const double a = -n.dot(d), square = d.squaredNorm();
+    return a > 0 ? 1.5 / units::pi * a * a * std::abs(d.dot(area)) / (square * square * std::sqrt(square)) : 0.0;
   };
   return spread_load(mesh, mesh.surfaces(point.tooth).centre, frame, weight, [&](const FaceNodes& nodes) { return parts(nodes, source); });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <new>
 #include <utility>
 #include <vector>
@@ -82,16 +83,20 @@ struct EliminationPlan {
 class Fronts {
  public:
   Fronts(const Supernodes& supernodes, const EliminationPlan& plan, const Eigen::SparseMatrix<double>& ordered, const PanelProducts& products)
-      : supernodes_(supernodes), plan_(plan), ordered_(ordered), products_(products), place_(static_cast<std::size_t>(supernodes.rows())) {
-    stack_.resize(plan.stack);
-    front_.resize(plan.front);
-  }
+      : supernodes_(supernodes),
+        plan_(plan),
+        ordered_(ordered),
+        products_(products),
+        stack_(std::make_unique_for_overwrite<double[]>(plan.stack)),
+        front_(std::make_unique_for_overwrite<double[]>(plan.front)),
+        place_(static_cast<std::size_t>(supernodes.rows())) {}
 
   /// Block of L of the next supernode, until the next call; null where a pivot is not positive.
   const double* eliminate(int s) {
     const int size = supernodes_.size(s), height = supernodes_.height(s), below = height - size;
-    double *block = front_.data(), *update = block + static_cast<std::size_t>(height) * size;
-    std::fill_n(block, static_cast<std::size_t>(height) * size + static_cast<std::size_t>(below) * below, 0.0);
+    double *block = front_.get(), *update = block + static_cast<std::size_t>(height) * size;
+    for (int j = 0; j < size; ++j) clear_column(block, height, j);
+    for (int j = 0; j < below; ++j) clear_column(update, below, j);
     for (int i = 0; i < height; ++i) place_[supernodes_.row(s, i)] = i;
     for (int j = 0; j < size; ++j) {
       double* column = block + static_cast<std::size_t>(j) * height;
@@ -118,13 +123,18 @@ class Fronts {
   double pivots() const { return (least_ / most_) * (least_ / most_); }
 
  private:
+  /// In a lower triangle, the only part of a front that is read.
+  static void clear_column(double* triangle, int rows, int column) {
+    std::fill_n(triangle + static_cast<std::size_t>(column) * rows + column, rows - column, 0.0);
+  }
+
   /// Adds the update on top of the stack to the front of its parent s.
   void take_update(int s, double* block, double* update) {
     const int child = waiting_.back(), size = supernodes_.size(s), height = supernodes_.height(s), below = supernodes_.below(child);
     assert(supernodes_.parent(child) == s);
     waiting_.pop_back();
     top_ -= triangle(below);
-    const double* from = stack_.data() + top_;
+    const double* from = stack_.get() + top_;
     places_.resize(static_cast<std::size_t>(below));
     for (int i = 0; i < below; ++i) places_[i] = place_[supernodes_.row(child, supernodes_.size(child) + i)];
     for (int j = 0; j < below; ++j) {
@@ -137,7 +147,7 @@ class Fronts {
 
   void leave_update(int s, const double* update) {
     const int below = supernodes_.below(s);
-    double* to = stack_.data() + top_;
+    double* to = stack_.get() + top_;
     for (int j = 0; j < below; ++j) to = std::copy_n(update + static_cast<std::size_t>(j) * below + j, below - j, to);
     waiting_.push_back(s);
     top_ += triangle(below);
@@ -147,10 +157,10 @@ class Fronts {
   const EliminationPlan& plan_;
   const Eigen::SparseMatrix<double>& ordered_;
   const PanelProducts& products_;
-  std::vector<double> stack_, front_;
-  std::size_t top_{0};        ///< entries on the stack
-  std::vector<int> waiting_;  ///< supernodes whose updates are on the stack
-  std::vector<int> place_;    ///< of every row of L, in the front at work
+  std::unique_ptr<double[]> stack_, front_;  ///< written before they are read
+  std::size_t top_{0};                       ///< entries on the stack
+  std::vector<int> waiting_;                 ///< supernodes whose updates are on the stack
+  std::vector<int> place_;                   ///< of every row of L, in the front at work
   std::vector<int> places_;
   double least_{std::numeric_limits<double>::infinity()}, most_{0};
 };
@@ -170,12 +180,13 @@ double bytes_of(const Matrix& sparse) {
 
 MultifrontalGram eliminate(Eigen::SparseMatrix<double> lower, const Eigen::VectorXi& node_of,
                            const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit, const EliminationProgress& progress,
-                           const ForEachIndex& for_each) {
+                           const ForEachIndex& for_each, EliminationOrder order) {
   const Stopwatch clock;
   const OneCore serial;
   const PanelProducts products(for_each);
   MultifrontalGram result;
-  const SymbolicFactor symbolic(lower, node_of);
+  if (!order.is_made()) order = EliminationOrder(lower, node_of, EliminationOrder::Turn::Wait);
+  const SymbolicFactor symbolic(lower, order);
   if (symbolic.l == nullptr) throw std::bad_alloc();
   const Supernodes supernodes(*symbolic.l);
   const EliminationPlan plan(supernodes);
@@ -208,9 +219,9 @@ MultifrontalGram eliminate(Eigen::SparseMatrix<double> lower, const Eigen::Vecto
 
 MultifrontalGram multifrontal_gram(Eigen::SparseMatrix<double>&& lower, const Eigen::VectorXi& node_of,
                                    const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit,
-                                   const EliminationProgress& progress, const ForEachIndex& for_each) {
+                                   const EliminationProgress& progress, const ForEachIndex& for_each, EliminationOrder order) {
   try {
-    return eliminate(taken(lower), node_of, right_sides, memory_limit, progress, for_each);
+    return eliminate(taken(lower), node_of, right_sides, memory_limit, progress, for_each, std::move(order));
   } catch (const std::bad_alloc&) {
     MultifrontalGram result;
     result.status = FactorStatus::OutOfMemory;

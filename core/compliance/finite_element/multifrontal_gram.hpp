@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "core/base/for_each_index.hpp"
+#include "core/compliance/finite_element/elimination_order.hpp"
 #include "core/compliance/finite_element/sparse_cholesky.hpp"
 #include "core/gear/gear_data.hpp"
 
@@ -35,10 +36,11 @@ using EliminationProgress = std::function<void(double)>;
 /// Same input, same bits, whatever the number of threads.
 /// @param lower, node_of  as SparseCholesky; the matrix is taken() and freed as soon as it is ordered
 /// @param right_sides     B, n x k
+/// @param order           of the same matrix; not made: it is made here
 /// @param memory_limit    OutOfMemory where peak_bytes > memory_limit [bytes], before the elimination, and where an allocation fails
 /// @param for_each        shares panels of large blocks among threads, PanelProducts; empty: all on the calling thread
 MultifrontalGram multifrontal_gram(Eigen::SparseMatrix<double>&& lower, const Eigen::VectorXi& node_of,
                                    const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit,
-                                   const EliminationProgress& progress = {}, const ForEachIndex& for_each = {});
+                                   const EliminationProgress& progress = {}, const ForEachIndex& for_each = {}, EliminationOrder order = {});
 
 }  // namespace flankwright

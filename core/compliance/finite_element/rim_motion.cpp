@@ -1,5 +1,6 @@
 #include "core/compliance/finite_element/rim_motion.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/Cholesky>
 #include <cassert>
 #include <map>

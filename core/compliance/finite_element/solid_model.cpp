@@ -9,6 +9,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/taken.hpp"
+#include "core/base/wide_sum.hpp"
 
 namespace flankwright {
 namespace {
@@ -53,7 +54,7 @@ struct BrickMotion {
     for (Eigen::Index k = 0; k < weights.cols(); ++k) {
       for (int i = 0; i < 20; ++i) moves.block<3, 3>(3 * i, 3 * k).diagonal().setConstant(weights(i, k));
     }
-    return moves.transpose() * stiffness * moves;
+    return wide_product(moves.transpose(), wide_product(stiffness, moves));
   }
 };
 
@@ -220,8 +221,6 @@ class Assembly {
 
   void fill(const SolidMesh& mesh, const Material& material, const std::vector<int>& ties, const std::vector<int>& number,
             const std::vector<int>& turn) {
-    const int* outer = lower_.outerIndexPtr();
-    const int* inner = lower_.innerIndexPtr();
     for (Eigen::Index e = 0; e < mesh.bricks.cols(); ++e) {
       const BrickMotion brick(mesh, ties, e);
       const std::vector<int>& nodes = brick.nodes;
@@ -233,16 +232,33 @@ class Assembly {
         stiffness.middleRows<3>(3 * i) = (turned_[t].frame.transpose() * stiffness.middleRows<3>(3 * i)).eval();
         stiffness.middleCols<3>(3 * i) = (stiffness.middleCols<3>(3 * i) * turned_[t].frame).eval();
       }
-      for (int j = 0; j < stiffness.cols(); ++j) {
-        const int column = number[3 * nodes[j / 3] + j % 3];
-        if (column < 0) continue;
-        for (int i = 0; i < stiffness.rows(); ++i) {
-          const int row = number[3 * nodes[i / 3] + i % 3];
-          if (row < column) continue;
-          const int* entry = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
-          lower_.valuePtr()[entry - inner] += stiffness(i, j);
+      for (std::size_t j = 0; j < nodes.size(); ++j) {
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+          if (nodes[i] >= nodes[j])
+            add_block(nodes[i], nodes[j], stiffness.block<3, 3>(3 * static_cast<Eigen::Index>(i), 3 * static_cast<Eigen::Index>(j)), number);
         }
       }
+    }
+  }
+
+  /// The unknowns of a node have consecutive numbers, in rows as in columns. The rows of a node's second and third column begin one and two later, on the diagonal.
+  /// @param of, by  nodes, of >= by
+  /// @param block   of the stiffness, rows of one and columns of the other
+  void add_block(int of, int by, const Eigen::Matrix3d& block, const std::vector<int>& number) {
+    const int* const outer = lower_.outerIndexPtr();
+    const int* const inner = lower_.innerIndexPtr();
+    std::ptrdiff_t first = -1;  // entry of the first row of `of` in the first column of `by`
+    for (int b = 0, columns = 0; b < 3; ++b) {
+      const int column = number[3 * by + b];
+      if (column < 0) continue;
+      for (int a = 0, rows = 0; a < 3; ++a) {
+        const int row = number[3 * of + a];
+        if (row < 0) continue;
+        if (first < 0) first = std::lower_bound(inner + outer[column], inner + outer[column + 1], row) - (inner + outer[column]);
+        if (row >= column) lower_.valuePtr()[outer[column] + first + rows - columns] += block(a, b);
+        ++rows;
+      }
+      ++columns;
     }
   }
 };
@@ -282,10 +298,10 @@ Eigen::MatrixXd SolidModel::influence(const Eigen::SparseMatrix<double>& loads) 
 }
 
 MultifrontalGram influence_at_once(SolidStiffness&& stiffness, Eigen::SparseMatrix<double>&& loads, double memory_limit,
-                                   const EliminationProgress& progress, const ForEachIndex& for_each) {
+                                   const EliminationProgress& progress, const ForEachIndex& for_each, EliminationOrder order) {
   assert(loads.rows() == stiffness.motion.rows());
   const Eigen::SparseMatrix<double, Eigen::RowMajor> by_unknowns = taken(stiffness.motion).transpose() * taken(loads);
-  return multifrontal_gram(taken(stiffness.lower), stiffness.node_of, by_unknowns, memory_limit, progress, for_each);
+  return multifrontal_gram(taken(stiffness.lower), stiffness.node_of, by_unknowns, memory_limit, progress, for_each, std::move(order));
 }
 
 }  // namespace flankwright

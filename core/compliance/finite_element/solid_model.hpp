@@ -83,8 +83,8 @@ class SolidModel {
 
 /// SolidModel::influence() of one set of loads without a factor that is kept, for a fraction of its memory.
 /// @param stiffness, loads  taken(), and freed as soon as they were read
-/// @param memory_limit, for_each  as multifrontal_gram()
+/// @param memory_limit, for_each, order  as multifrontal_gram()
 MultifrontalGram influence_at_once(SolidStiffness&& stiffness, Eigen::SparseMatrix<double>&& loads, double memory_limit,
-                                   const EliminationProgress& progress = {}, const ForEachIndex& for_each = {});
+                                   const EliminationProgress& progress = {}, const ForEachIndex& for_each = {}, EliminationOrder order = {});
 
 }  // namespace flankwright

@@ -106,6 +106,8 @@ class TableSolver {
     const Material material{1, task_.poissons_ratio};
     SolidStiffness stiffness(mesh.solid, material, mesh.supports);
     statistics.unknowns = stiffness.lower.rows();
+    // Where the matrix of the other gear is being ordered, the loads come first.
+    EliminationOrder order(stiffness.lower, stiffness.node_of, EliminationOrder::Turn::Now);
     RootStressReadings roots = task_.root_stress ? root_stress_readings(mesh, material, task_.grid) : RootStressReadings{};
     const Eigen::Index of_stress = roots.stress.cols(), of_loads = roots.on_the_flank.cols();
     const bool has_rim = reads_rim_motion(task_.gear.body);
@@ -122,7 +124,8 @@ class TableSolver {
       const int step = kModelSteps + static_cast<int>(std::floor(done * (kTableSteps - kModelSteps - 1)));
       if (step > last) report(last = step);
     };
-    const MultifrontalGram solved = influence_at_once(std::move(stiffness), std::move(functionals.all), memory_limit, progress, for_each);
+    const MultifrontalGram solved =
+        influence_at_once(std::move(stiffness), std::move(functionals.all), memory_limit, progress, for_each, std::move(order));
     run_.status = solved.status;
     statistics.factor_entries = solved.factor_entries;
     statistics.peak_bytes = solved.peak_bytes;

@@ -42,7 +42,7 @@ struct SparseCholesky::Factor : SymbolicFactor {
 
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of) {
   const OneCore serial;
-  factor_ = std::make_unique<Factor>(lower, node_of);
+  factor_ = std::make_unique<Factor>(lower, EliminationOrder(lower, node_of, EliminationOrder::Turn::Wait));
   cholmod_common& common = factor_->common;
   cholmod_sparse a = view_of(lower);
   if (factor_->l) cholmod_factorize(&a, factor_->l, &common);

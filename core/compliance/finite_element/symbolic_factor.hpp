@@ -5,16 +5,18 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
+#include "core/compliance/finite_element/elimination_order.hpp"
+
 namespace flankwright {
 
-/// The pattern of the supernodal Cholesky factor P A P' = L L' of a sparse matrix of node blocks, by CHOLMOD, ordered by
-/// METIS on the graph of the nodes. The factor has no numbers yet.
+/// The pattern of the supernodal Cholesky factor P A P' = L L' of a sparse matrix of node blocks, by CHOLMOD, in the
+/// order given. The factor has no numbers yet.
 struct SymbolicFactor {
   cholmod_common common;
   cholmod_factor* l{nullptr};  ///< null where memory did not suffice
 
-  /// @param lower, node_of  as SparseCholesky; keep OneCore while this runs
-  SymbolicFactor(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of);
+  /// @param order  of the same matrix, made; keep OneCore while this runs
+  SymbolicFactor(const Eigen::SparseMatrix<double>& lower, const EliminationOrder& order);
   ~SymbolicFactor();
   SymbolicFactor(const SymbolicFactor&) = delete;
   SymbolicFactor& operator=(const SymbolicFactor&) = delete;
