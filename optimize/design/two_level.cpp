@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/search/design_log.hpp"
@@ -93,6 +94,10 @@ std::vector<Eigen::VectorXd> best_starts(DesignProblem& problem, const DesignRes
 }
 
 void go_on_from_best(DesignProblem& problem, const DesignOptions& options, const std::vector<Eigen::VectorXd>& starts, TwoLevelDesign& found) {
+  if (starts.size() == 1) {  // a copy of the cycles of all scenes takes as long as some analyses
+    problem.set_start(starts.front());
+    return go_on(problem, options, found);
+  }
   const TwoLevelDesign before = found;
   for (std::size_t i = 0; i < starts.size(); ++i) {
     TwoLevelDesign further = before;
@@ -144,17 +149,18 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
   DesignProblem coarse_problem(coarser(problem.task()));
   DesignOptions search = options;
   search.solver.tolerance = std::max(options.solver.tolerance, coarse_tolerance);
-  const DesignResult coarse = optimise_design(coarse_problem, search);
+  DesignResult coarse = optimise_design(coarse_problem, search);
   result.search = {coarse_problem.task().resolution, coarse_problem.cycles(), clock.seconds()};
   result.objective_seen_by_search = coarse.after.objective;
 
   const Stopwatch fine_clock;
-  result.design = coarse;
+  const SolverStatus coarse_status = coarse.status;
   std::vector<Eigen::VectorXd> starts = best_starts(problem, coarse, problem.nearest_design(coarse.after.variables));
   add_first_run(coarse, starts);
+  result.design = std::move(coarse);
   result.fine.cycles = problem.cycles() - cycles_before;
   go_on_from_best(problem, options, starts, result);
-  const bool is_out_of_limits = result.design.status == SolverStatus::Infeasible && coarse.status != SolverStatus::Infeasible;
+  const bool is_out_of_limits = result.design.status == SolverStatus::Infeasible && coarse_status != SolverStatus::Infeasible;
   if (is_out_of_limits && options.shows_nearest)  // only here: the coarse search has not sought the nearest design
     go_on_from_best(problem, options, {problem.nearest_design(result.design.after.variables)}, result);
   result.fine.seconds = fine_clock.seconds();

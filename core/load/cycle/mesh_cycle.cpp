@@ -1,12 +1,14 @@
 #include "core/load/cycle/mesh_cycle.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <deque>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "core/contact/gap/condition_gap.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
@@ -201,15 +203,35 @@ LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, 
   return cycle;
 }
 
+/// Takes the positions from `middle` on.
+void add_half(LoadedCycle&& half, std::size_t middle, LoadedCycle& cycle) {
+  for (std::size_t i = middle; i < cycle.positions.size(); ++i) cycle.positions[i] = std::move(half.positions[i]);
+  cycle.failures += half.failures;
+  if (half.force_derivative.size() > 0) cycle.force_derivative = std::move(half.force_derivative);
+}
+
 }  // namespace
 
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters,
-                          RootStresses root_stresses, const LoadedCycle* earlier) {
+                          RootStresses root_stresses, const LoadedCycle* earlier, const ForEachIndex& for_each) {
   std::vector<std::size_t> all(model.positions.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  LoadedCycle cycle = analyse(model, all, condition, pinion_torque, parameters, earlier);
+  const bool in_halves = for_each && earlier != nullptr && all.size() >= 2;
+  const std::size_t middle = in_halves ? all.size() / 2 : all.size();
+  std::array<LoadedCycle, 2> parts;
+  const auto analyse_part = [&](std::size_t part) {
+    const std::span of = part == 0 ? std::span(all).first(middle) : std::span(all).subspan(middle);
+    parts[part] = analyse(model, of, condition, pinion_torque, parameters, earlier);
+  };
+  if (in_halves) {
+    for_each(parts.size(), analyse_part);
+  } else {
+    analyse_part(0);
+  }
+  LoadedCycle& cycle = parts[0];
+  if (in_halves) add_half(std::move(parts[1]), middle, cycle);
   if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);
-  return cycle;
+  return std::move(cycle);
 }
 
 LoadedCycle analyse_positions(const MeshModel& model, std::span<const std::size_t> positions, const FlankCondition& condition, double pinion_torque,

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/for_each_index.hpp"
 #include "core/load/solve/load_problem.hpp"
 #include "core/load/cycle/cycle_values.hpp"
 #include "core/load/cycle/loaded_cycle.hpp"
@@ -27,10 +28,11 @@ enum class RootStresses { WithLoads, Later };
 ///                       of points by parameters that move the mesh follow the points, see MeshSlopes
 /// @param earlier        another cycle of the same model, of a design that differs by little, to start from; null: none. Only the time
 ///                       depends on it, and digits beyond the tolerance
+/// @param for_each       where an earlier cycle is known, shares the halves of the cycle among threads: the halves are the same on one thread
 /// @throws InvalidInput  where a parameter moves the mesh and the model has no perturbed meshes along it
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
                           const std::vector<MeshParameter>& parameters = {}, RootStresses root_stresses = RootStresses::WithLoads,
-                          const LoadedCycle* earlier = nullptr);
+                          const LoadedCycle* earlier = nullptr, const ForEachIndex& for_each = {});
 
 /// Some positions of the same, without derivatives; the others stay as they begin, with no loads. What holds at these holds in the whole cycle to the
 /// tolerance.

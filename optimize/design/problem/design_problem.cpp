@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "core/load/cycle/mesh_motion.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
@@ -216,7 +217,13 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
   const double torque = task_.scenes[static_cast<std::size_t>(scene)].torque;
   const FlankCondition of_scene = condition(scene, modification);
   ++*cycles_;
-  const auto analyse = [&](const MeshModel& mesh_model) { return analyse_cycle(mesh_model, of_scene, torque, parameters, root_stresses_, earlier); };
+  // Where the last scenes are fewer than the threads.
+  const ForEachIndex in_halves = [](std::size_t count, const std::function<void(std::size_t)>& work) {
+    tbb::parallel_for(std::size_t{0}, count, work);
+  };
+  const auto analyse = [&](const MeshModel& mesh_model) {
+    return analyse_cycle(mesh_model, of_scene, torque, parameters, root_stresses_, earlier, in_halves);
+  };
   if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
   const MeshPlaced placed = [this](const MeshPlacement& placement) { return made_mesh(placement, task_.resolution.phases); };
   return analyse(with_perturbed_meshes(model(scene), placed, parameters));
@@ -228,13 +235,14 @@ void DesignProblem::add_root_stress(DesignAnalysis& analysis) const {
       [&] { tbb::parallel_for(0, scenes(), [&](int s) { flankwright::add_root_stress(model(s), analysis.cycles[static_cast<std::size_t>(s)]); }); });
 }
 
-DesignAnalysis DesignProblem::run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier) const {
+DesignAnalysis DesignProblem::run(const PerGear<Modification>& modification, bool with_derivatives, DesignAnalysis earlier) const {
   DesignAnalysis analysis{modification, std::vector<LoadedCycle>(task_.scenes.size())};
   const std::vector<MeshParameter> none;
   const auto analyse = [&](int s) {
     const auto at = static_cast<std::size_t>(s);
     analysis.cycles[at] =
         analyse_scene(s, modification, with_derivatives ? parameters_ : none, earlier.cycles.empty() ? nullptr : &earlier.cycles[at]);
+    if (!earlier.cycles.empty()) earlier.cycles[at] = {};  // here, where all threads do so: it takes some per cent of the time
   };
   // A thread that waits for its scenes must not take up another start of a multi-start meanwhile.
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, scenes(), analyse); });
@@ -254,7 +262,8 @@ DesignAnalysis DesignProblem::analyse_some(const Eigen::VectorXd& x, const std::
 const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with_derivatives) {
   const bool known = last_x_.size() == x.size() && last_x_ == x && (last_has_derivatives_ || !with_derivatives);
   if (known) return last_;
-  last_ = run(modification(x), with_derivatives, last_);
+  last_x_.resize(0);
+  last_ = run(modification(x), with_derivatives, std::exchange(last_, {}));
   last_x_ = x;
   last_has_derivatives_ = with_derivatives;
   ++analyses_;

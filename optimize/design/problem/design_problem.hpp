@@ -147,7 +147,7 @@ class DesignProblem {
   FlankCondition condition(int scene, const PerGear<Modification>& modification) const;
   void find_fillets();
   /// @param earlier  one that loads start from; without cycles: none
-  DesignAnalysis run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier = {}) const;
+  DesignAnalysis run(const PerGear<Modification>& modification, bool with_derivatives, DesignAnalysis earlier = {}) const;
 
   DesignTask task_;
   RootStresses root_stresses_;                                         ///< with every analysis where the task asks for them
