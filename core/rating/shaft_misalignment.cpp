@@ -6,14 +6,16 @@ ShaftPair shafts_under(const ShaftPair& shafts, const MeshModel& model, double p
   return model.placement.other_flanks ? shafts.reversed().at_torque(pinion_torque) : shafts.at_torque(pinion_torque);
 }
 
-PerGear<ShaftMotion> shaft_motions(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle, std::size_t position) {
-  PerGear<ShaftMotion> motions;
-  const LoadDistribution& load = cycle.positions[position].load;
-  if (!load.usable()) return motions;
-  const MeshPosition& at = model.positions[position];
-  const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
-  for (const Member m : {Member::Pinion, Member::Wheel}) {
-    if (shafts.has_shaft(m)) motions[m] = shafts.motion(m, at.points, forces, model.axial_offset);
+std::vector<PerGear<ShaftMotion>> shaft_motions(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle) {
+  std::vector<PerGear<ShaftMotion>> motions(cycle.positions.size());
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const LoadDistribution& load = cycle.positions[i].load;
+    if (!load.usable()) continue;
+    const MeshPosition& at = model.positions[i];
+    const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (shafts.has_shaft(m)) motions[i][m] = shafts.motion(m, at.points, forces, model.axial_offset);
+    }
   }
   return motions;
 }
@@ -24,10 +26,10 @@ double opened_by(const ShaftPair& shafts, const PerGear<ShaftMotion>& motions) {
   return sum;
 }
 
-double shaft_misalignment(const ShaftPair& shafts, const MeshModel& model, const LoadedCycle& cycle) {
+double shaft_misalignment(const ShaftPair& shafts, const std::vector<PerGear<ShaftMotion>>& motions) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < cycle.positions.size(); ++i) sum += opened_by(shafts, shaft_motions(shafts, model, cycle, i));
-  return sum / static_cast<double>(cycle.positions.size());
+  for (const PerGear<ShaftMotion>& at : motions) sum += opened_by(shafts, at);
+  return sum / static_cast<double>(motions.size());
 }
 
 double rim_opening(const PairRimMotion& rims, const MeshModel& model, double force) {

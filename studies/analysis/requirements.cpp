@@ -39,17 +39,16 @@ std::optional<FlankMotion> largest_flank_motion(const StudyResults& results, con
   if (!results.shafts || !loaded.cycle.usable()) return std::nullopt;
   const MeshModel& model = results.models[loaded.model];
   const GearPair& pair = model.pair;
-  const ShaftPair shafts = shafts_under(*results.shafts, model, loaded.torque);
   std::vector<FlankMotion> motions;
   const double working_depth = pair.pinion.tip_radius + pair.wheel.tip_radius - pair.centre_distance;
-  for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
-    const PerGear<ShaftMotion> of = shaft_motions(shafts, model, loaded.cycle, i);
+  for (const PerGear<ShaftMotion>& of : loaded.shaft_motions) {
     double apart = 0.0;
-    for (const Member m : both_gears) apart += shafts.has_shaft(m) ? of[m].displacement : 0.0;
+    for (const Member m : both_gears) apart += results.shafts->has_shaft(m) ? of[m].displacement : 0.0;
     motions.push_back({"the pair", false, std::abs(apart), working_depth});
-    motions.push_back({"the pair", true, std::abs(opened_by(shafts, of)), pair.data.normal_module});
+    motions.push_back({"the pair", true, std::abs(opened_by(*results.shafts, of)), pair.data.normal_module});
   }
-  if (shafts.has_unit()) {
+  if (results.shafts->has_unit()) {
+    const ShaftPair shafts = shafts_under(*results.shafts, model, loaded.torque);
     const std::vector<UnitMesh>& meshes = results.study.unit.meshes;
     const UnitState unit = shafts.state(loaded.torque, model.axial_offset);  // the pair first, then the meshes as the study has them
     for (std::size_t m = 0; m < meshes.size(); ++m) {

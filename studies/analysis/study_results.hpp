@@ -35,12 +35,13 @@ struct LoadedResult {
   std::size_t model{0};      ///< index into StudyResults::models
   FlankCondition condition;  ///< that it was solved for
   IsoLoadFactors iso;
-  std::optional<EdgeContactStart> edge_contact{};  ///< none where contact reaches no tip edge
-  std::optional<LoadRating> rating{};              ///< none where peaks are sampled, or phases were given
-  Operation operation{};                           ///< under this torque
-  int bin{-1};                                     ///< index into Study::spectrum; -1: none
-  int spectrum_loads{0};                           ///< load cases that the spectrum has in this scene
-  int compared_intervals{0};                       ///< of the cycle that the errors by points come from; 0: none was estimated
+  std::optional<EdgeContactStart> edge_contact{};     ///< none where contact reaches no tip edge
+  std::optional<LoadRating> rating{};                 ///< none where peaks are sampled, or phases were given
+  Operation operation{};                              ///< under this torque
+  int bin{-1};                                        ///< index into Study::spectrum; -1: none
+  int spectrum_loads{0};                              ///< load cases that the spectrum has in this scene
+  int compared_intervals{0};                          ///< of the cycle that the errors by points come from; 0: none was estimated
+  std::vector<PerGear<ShaftMotion>> shaft_motions{};  ///< of every position; empty where shafts are rigid
 };
 
 /// A step of the run that is no effect of the mesh, and its time.

@@ -226,9 +226,12 @@ void StudyRun::add_unloaded(const Scene& scene) {
 
 void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles) {
   const std::vector<std::size_t> models = models_for(scenes);
+  std::vector<std::vector<PerGear<ShaftMotion>>> motions(scenes.size());
   tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
     const bool has_none = !cycles[i].positions.empty() && cycles[i].positions.front().root_stress.size() == 0;
-    if (has_none) add_root_stress(results_.models[models[i]], cycles[i]);  // a search that did not ask for it has left it out
+    const MeshModel& model = results_.models[models[i]];
+    if (has_none) add_root_stress(model, cycles[i]);  // a search that did not ask for it has left it out
+    if (results_.shafts) motions[i] = shaft_motions(shafts_under(*results_.shafts, model, scenes[i].torque), model, cycles[i]);
   });
   std::vector<SolvedCase> cases;
   for (std::size_t i = 0; i < scenes.size(); ++i) cases.push_back({scenes[i], &results_.models[models[i]], &cycles[i]});
@@ -236,7 +239,7 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const DesignScene& scene = scenes[i];
     const MeshModel& model = results_.models[models[i]];
-    const double by_shafts = results_.shafts ? shaft_misalignment(shafts_under(*results_.shafts, model, scene.torque), model, cycles[i]) : 0.0;
+    const double by_shafts = results_.shafts ? shaft_misalignment(*results_.shafts, motions[i]) : 0.0;
     IsoLoadFactors iso;  // not known where the shafts' loads are not
     if (!std::isnan(by_shafts)) {
       iso =
@@ -251,6 +254,7 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
     results_.loaded.back().operation = scene.operation;
     results_.loaded.back().bin = scene.bin;
     results_.loaded.back().spectrum_loads = scene.spectrum_loads;
+    results_.loaded.back().shaft_motions = std::move(motions[i]);
   }
 }
 

@@ -181,7 +181,7 @@ Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
     if (at_load) shafts.push_back(shafts_gradient_json(*at_load, loaded, model, i, gradient, outside, by_shafts.derivative));
   }
   by_shafts.derivative /= static_cast<double>(loaded.cycle.positions.size());
-  if (at_load) by_shafts.value = shaft_misalignment(*at_load, model, loaded.cycle);
+  if (at_load) by_shafts.value = shaft_misalignment(*at_load, loaded.shaft_motions);
   const ShaftMisalignment by_bodies = with_rims(by_shafts, rim_opening(results, model, loaded.torque), loaded.torque, outside.parameters());
   Json json{{"parameters", list(study.gradients, [](const GradientParameter& p) { return p.path; })},
             {"units", list(study.gradients, [](const GradientParameter& p) { return p.unit; })},

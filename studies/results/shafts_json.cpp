@@ -49,9 +49,8 @@ std::string shaft_table(const StudyResults& results, std::size_t width) {
     const LoadedResult& loaded = results.loaded[l];
     if (!governs[l] || loaded.design == "before") continue;
     const MeshModel& model = results.models[loaded.model];
-    const ShaftPair shafts = shafts_under(*results.shafts, model, loaded.torque);
-    const double misalignment = shaft_misalignment(shafts, model, loaded.cycle);
-    const UnitState unit = shafts.state(loaded.torque, model.axial_offset);
+    const double misalignment = shaft_misalignment(*results.shafts, loaded.shaft_motions);
+    const UnitState unit = shafts_under(*results.shafts, model, loaded.torque).state(loaded.torque, model.axial_offset);
     out += fmt::format("{:<{}}  {:>10.6g}", loaded.scene, width, in_Nm(loaded.torque));
     for (const ShaftColumn& column : shown)
       out += fmt::format("  {:>9}", fmt::format(fmt::runtime(column.form), column.value(misalignment, common_face_width(model), unit)));
@@ -70,7 +69,7 @@ void add_shaft_motion(const LoadedResult& loaded, const StudyResults& results, J
       json["shafts"].push_back(nullptr);
       continue;
     }
-    const PerGear<ShaftMotion> motions = shaft_motions(shafts, model, loaded.cycle, i);
+    const PerGear<ShaftMotion>& motions = loaded.shaft_motions[i];
     Json entry{{"phase", model.positions[i].phase}};
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       entry[name_of(m)] = nullptr;
@@ -80,7 +79,7 @@ void add_shaft_motion(const LoadedResult& loaded, const StudyResults& results, J
     entry["mesh_misalignment_um"] = in_um(opened_by(shafts, motions));
     json["shafts"].push_back(std::move(entry));
   }
-  json["summary"]["shaft_misalignment_um"] = in_um(shaft_misalignment(shafts, model, loaded.cycle));
+  json["summary"]["shaft_misalignment_um"] = in_um(shaft_misalignment(shafts, loaded.shaft_motions));
 }
 
 }  // namespace flankwright::studies

@@ -22,18 +22,14 @@ std::vector<BeamLoad> both_ends(const BeamSupport& support) {
 
 BeamSystem::ReducedLoad BeamSystem::reduce(const BeamLoad& load) const {
   assert(load.beam >= 0 && load.beam < std::ssize(beams_));
+  const Eigen::Vector3d M = about_origin(load);
   const Eigen::Vector2d g(-load.force.y(), load.force.x());
-  return {load.z, load.beam, load.force, about_origin(load), g, beams_[static_cast<std::size_t>(load.beam)].to(load.z)};
-}
-
-double BeamSystem::clamped(const ReducedLoad& a, const ReducedLoad& b) {
-  if (a.beam != b.beam) return 0.0;
-  const Moments& lower = a.z < b.z ? a.lower : b.lower;
-  const auto across = [](const Eigen::Vector3d& v) { return v.head<2>(); };
-  return lower.shear * across(a.force).dot(across(b.force)) + lower.axial * a.force.z() * b.force.z() + lower.torsion * a.moment.z() * b.moment.z() +
-         lower.bending * across(a.moment).dot(across(b.moment)) -
-         lower.bending_1 * (across(a.moment).dot(b.turned_force) + a.turned_force.dot(across(b.moment))) +
-         lower.bending_2 * a.turned_force.dot(b.turned_force);
+  const Moments lower = beams_[static_cast<std::size_t>(load.beam)].to(load.z);
+  ReducedLoad reduced{load.z, load.beam, {}, {}};
+  reduced.wrench << load.force, M.z(), M.head<2>(), g;
+  reduced.strained << lower.shear * load.force.head<2>(), lower.axial * load.force.z(), lower.torsion * M.z(),
+      lower.bending * M.head<2>() - lower.bending_1 * g, lower.bending_2 * g - lower.bending_1 * M.head<2>();
+  return reduced;
 }
 
 BeamSystem::Moments BeamSystem::Beam::to(double z) const {
@@ -103,13 +99,16 @@ Eigen::MatrixXd BeamSystem::coupling(const std::vector<ReducedLoad>& loads) cons
     const auto support = static_cast<std::size_t>(j);
     const double scale = 1.0 / (compliance_scale_ * arm(supports_[support]));
     for (const ReducedLoad& end : directions_[support]) {
-      for (Eigen::Index i = 0; i < rows.rows(); ++i) rows(i, j) += scale * clamped(loads[static_cast<std::size_t>(i)], end);
+      for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+        const ReducedLoad& load = loads[static_cast<std::size_t>(i)];
+        if (load.beam == end.beam) rows(i, j) += scale * clamped(load, end);
+      }
     }
   }
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     const ReducedLoad& load = loads[static_cast<std::size_t>(i)];
-    rows.row(i).segment<3>(n + 6 * load.beam) = load.force;
-    rows.row(i).segment<3>(n + 6 * load.beam + 3) = load.moment / length_scale_;
+    rows.row(i).segment<3>(n + 6 * load.beam) = load.force();
+    rows.row(i).segment<3>(n + 6 * load.beam + 3) = load.moment() / length_scale_;
   }
   return rows;
 }

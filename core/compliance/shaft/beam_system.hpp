@@ -100,16 +100,19 @@ class BeamSystem {
     std::vector<Moments> until;  ///< at the pieces' beginnings
     Moments to(double z) const;
   };
-  /// A load with its moment about the origin, g = e_z x f, and the integrals up to it.
+  /// f, M_z, and across the axis M and g: what C(a, b) is bilinear in, with M the moment about the origin and g = e_z x f.
+  using Wrench = Eigen::Matrix<double, 8, 1>;
+  /// `strained` is the wrench times the integrals up to the load, so that C(a, b) = a.strained . b.wrench where z_a <= z_b.
   struct ReducedLoad {
     double z;
     int beam;
-    Eigen::Vector3d force, moment;
-    Eigen::Vector2d turned_force;
-    Moments lower;
+    Wrench wrench, strained;
+
+    auto force() const { return wrench.head<3>(); }
+    Eigen::Vector3d moment() const { return {wrench[4], wrench[5], wrench[3]}; }
   };
   ReducedLoad reduce(const BeamLoad& load) const;
-  static double clamped(const ReducedLoad& a, const ReducedLoad& b);
+  static double clamped(const ReducedLoad& a, const ReducedLoad& b) { return a.z < b.z ? a.strained.dot(b.wrench) : b.strained.dot(a.wrench); }
   double arm(const BeamSupport& support) const;
   Eigen::MatrixXd coupling(const std::vector<ReducedLoad>& loads) const;
   Eigen::MatrixXd combined_coupling(std::span<const BeamLoad> loads, int parts) const;

@@ -202,7 +202,8 @@ ShaftMotion ShaftPair::moved(Member member, const std::vector<ContactPoint>& poi
   const double last = std::min(0.5 * pair_.pinion.data.face_width, axial_offset + 0.5 * pair_.wheel.data.face_width);
   for (std::size_t i = 0; i < stations.size(); ++i) stations[i].z = first + 0.5 * static_cast<double>(i) * (last - first);
   const std::vector<BeamLoad> here = loads(member, stations, axial_offset);
-  Eigen::VectorXd motion = system_->flexibility(here, loads(points, axial_offset), parts(member), parts()) * forces;
+  // K is symmetric: three columns are solved for, and not one for every point.
+  Eigen::VectorXd motion = system_->flexibility(loads(points, axial_offset), here, parts(), parts(member)).transpose() * forces;
   if (!outside_.empty()) {
     motion += forces.sum() / force_per_torque() * system_->flexibility(here, outside_, parts(member), static_cast<int>(outside_.size())).col(0);
   }

@@ -172,7 +172,8 @@ std::vector<double> SampleAnalysis::case_outputs(SampleCase& of, const SweptCond
   if (life_ != nullptr) resolving.further = film_readings(model, *life_, loaded.operation, loaded.cycle.force);
   loaded.resolved = resolve_cycle(model, loaded.cycle, at, condition, torque, resolving);
   loaded.summary = loaded.resolved.summary;
-  const double by_shafts = nominal_.shafts ? shaft_misalignment(shafts_under(*nominal_.shafts, model, torque), model, loaded.cycle) : 0.0;
+  if (nominal_.shafts) loaded.shaft_motions = shaft_motions(shafts_under(*nominal_.shafts, model, torque), model, loaded.cycle);
+  const double by_shafts = nominal_.shafts ? shaft_misalignment(*nominal_.shafts, loaded.shaft_motions) : 0.0;
   const IsoDeviations deviations = iso_deviations(model.pair, condition, by_shafts + rim_opening(nominal_, model, torque));
   loaded.iso = iso_load_factors(model.pair, model.iso, deviations, torque, model.face_width);
   std::vector<double> values;
