@@ -36,9 +36,9 @@ using EliminationProgress = std::function<void(double)>;
 /// Same input, same bits, whatever the number of threads.
 /// @param lower, node_of  as SparseCholesky; the matrix is taken() and freed as soon as it is ordered
 /// @param right_sides     B, n x k
-/// @param order           of the same matrix; not made: it is made here
 /// @param memory_limit    OutOfMemory where peak_bytes > memory_limit [bytes], before the elimination, and where an allocation fails
 /// @param for_each        shares panels of large blocks among threads, PanelProducts; empty: all on the calling thread
+/// @param order           of the same matrix; not made: it is made here
 MultifrontalGram multifrontal_gram(Eigen::SparseMatrix<double>&& lower, const Eigen::VectorXi& node_of,
                                    const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides, double memory_limit,
                                    const EliminationProgress& progress = {}, const ForEachIndex& for_each = {}, EliminationOrder order = {});

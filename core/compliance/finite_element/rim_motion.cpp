@@ -1,7 +1,7 @@
 #include "core/compliance/finite_element/rim_motion.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cassert>
 #include <map>
 

@@ -1,6 +1,9 @@
 #include "core/load/cycle/load_start.hpp"
 
 #include <catch2/catch.hpp>
+#include <functional>
+#include <thread>
+#include <vector>
 
 #include "core/load/solve/load_solver.hpp"
 #include "tests/core/load/mesh_cases.hpp"
@@ -72,6 +75,42 @@ TEST_CASE("A cycle that starts from an earlier one's loads ends at the same, soo
   }
   if (change <= 0.1) CHECK(mean_iterations(after) < mean_iterations(alone));
   CHECK(mean_iterations(alone) <= 4.0);
+}
+
+TEST_CASE("The halves of a cycle are those of the whole, and the same in any order and on any thread", "[core][load]") {
+  constexpr double kRoundOff = 1e-10;  // tolerance of the solver times the condition of the problem
+  const GearPair gears = mesh_cases::pair(18, 54, 20.0, 3.0, 30.0);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(9)});  // halves of four and five
+  const double torque = mesh_cases::torque_for(gears, 200.0);
+  const std::vector<MeshParameter> parameters{PinionTorque{}};
+  FlankCondition condition;
+  const LoadedCycle earlier = analyse_cycle(model, condition, torque);
+  condition.modification.pinion.lead_crowning = 2 * units::um;
+  const auto by = [&](const ForEachIndex& for_each) {
+    return analyse_cycle(model, condition, torque, parameters, RootStresses::WithLoads, &earlier, for_each);
+  };
+  const LoadedCycle whole = by({});
+  const LoadedCycle backwards = by([](std::size_t count, const std::function<void(std::size_t)>& work) {
+    for (std::size_t i = count; i-- > 0;) work(i);
+  });
+  const LoadedCycle side_by_side = by([](std::size_t count, const std::function<void(std::size_t)>& work) {
+    std::vector<std::thread> threads;
+    for (std::size_t i = 0; i < count; ++i) threads.emplace_back(work, i);
+    for (std::thread& thread : threads) thread.join();
+  });
+  REQUIRE(whole.usable());
+  REQUIRE(backwards.usable());
+  CHECK(backwards.force_derivative == whole.force_derivative);
+  for (std::size_t i = 0; i < whole.positions.size(); ++i) {
+    CAPTURE(i);
+    const LoadedPosition &a = whole.positions[i], &b = backwards.positions[i];
+    CHECK(b.phase == a.phase);
+    CHECK((b.load.line_load - a.load.line_load).lpNorm<Eigen::Infinity>() <= kRoundOff * a.load.line_load.maxCoeff());
+    CHECK(b.transmission_error_derivative[0] == Approx(a.transmission_error_derivative[0]).epsilon(kRoundOff));
+    CHECK(b.root_stress.size() == a.root_stress.size());
+    CHECK(side_by_side.positions[i].load.line_load == b.load.line_load);
+    CHECK(side_by_side.positions[i].transmission_error_derivative == b.transmission_error_derivative);
+  }
 }
 
 TEST_CASE("A load far below round-off is taken from a point that should have none, whatever the others do", "[core][load]") {

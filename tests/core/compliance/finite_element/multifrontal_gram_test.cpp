@@ -40,6 +40,11 @@ TEST_CASE("An elimination that keeps no factor has the Gram matrix of one that d
   CHECK(std::ranges::is_sorted(progress));
   CHECK(progress.back() == Approx(1).epsilon(1e-12));  // round-off of the sum of all fronts
   CHECK(multifrontal_gram(Eigen::SparseMatrix<double>(lattice.lower), lattice.node_of, loads.leftCols(0), kUnlimited).gram.size() == 0);
+  // An order that was made before, as where the loads are made while another matrix is ordered.
+  EliminationOrder order(lattice.lower, lattice.node_of, EliminationOrder::Turn::Now);
+  REQUIRE(order.is_made());
+  CHECK(multifrontal_gram(Eigen::SparseMatrix<double>(lattice.lower), lattice.node_of, loads, kUnlimited, {}, {}, std::move(order)).gram ==
+        at_once.gram);
 }
 
 TEST_CASE("An elimination finds a motion that nothing holds", "[core][compliance][fe]") {
