@@ -1,9 +1,9 @@
 #include "core/compliance/finite_element/elimination_order.hpp"
 
-#include <cholmod.h>
-
 #include <cassert>
 #include <mutex>
+
+#include "core/compliance/finite_element/cholmod_view.hpp"
 
 namespace flankwright {
 namespace {
@@ -27,16 +27,7 @@ std::vector<int> order_rows(const Eigen::SparseMatrix<double>& lower, const Eige
     }
     starts.push_back(static_cast<int>(rows.size()));
   }
-  cholmod_sparse graph{};
-  graph.nrow = graph.ncol = static_cast<std::size_t>(groups);
-  graph.nzmax = rows.size();
-  graph.p = starts.data();
-  graph.i = rows.data();
-  graph.stype = -1;
-  graph.itype = CHOLMOD_INT;
-  graph.xtype = CHOLMOD_PATTERN;
-  graph.dtype = CHOLMOD_DOUBLE;
-  graph.sorted = graph.packed = 1;
+  cholmod_sparse graph = lower_view(static_cast<std::size_t>(groups), rows.size(), starts.data(), rows.data(), nullptr);
 
   cholmod_common common;
   cholmod_start(&common);

@@ -2,6 +2,8 @@
 
 #include <cassert>
 
+#include "core/compliance/finite_element/cholmod_view.hpp"
+
 namespace flankwright {
 
 SymbolicFactor::SymbolicFactor(const Eigen::SparseMatrix<double>& lower, const EliminationOrder& order) {
@@ -22,18 +24,8 @@ SymbolicFactor::~SymbolicFactor() {
 }
 
 cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
-  cholmod_sparse a{};
-  a.nrow = a.ncol = static_cast<std::size_t>(lower.rows());
-  a.nzmax = static_cast<std::size_t>(lower.nonZeros());
-  a.p = const_cast<int*>(lower.outerIndexPtr());
-  a.i = const_cast<int*>(lower.innerIndexPtr());
-  a.x = const_cast<double*>(lower.valuePtr());
-  a.stype = -1;
-  a.itype = CHOLMOD_INT;
-  a.xtype = CHOLMOD_REAL;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = a.packed = 1;
-  return a;
+  return lower_view(static_cast<std::size_t>(lower.rows()), static_cast<std::size_t>(lower.nonZeros()), lower.outerIndexPtr(), lower.innerIndexPtr(),
+                    lower.valuePtr());
 }
 
 }  // namespace flankwright

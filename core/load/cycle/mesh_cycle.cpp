@@ -219,15 +219,10 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   const bool in_halves = for_each && earlier != nullptr && all.size() >= 2;
   const std::size_t middle = in_halves ? all.size() / 2 : all.size();
   std::array<LoadedCycle, 2> parts;
-  const auto analyse_part = [&](std::size_t part) {
+  run_for_each(for_each, in_halves ? 2 : 1, [&](std::size_t part) {
     const std::span of = part == 0 ? std::span(all).first(middle) : std::span(all).subspan(middle);
     parts[part] = analyse(model, of, condition, pinion_torque, parameters, earlier);
-  };
-  if (in_halves) {
-    for_each(parts.size(), analyse_part);
-  } else {
-    analyse_part(0);
-  }
+  });
   LoadedCycle& cycle = parts[0];
   if (in_halves) add_half(std::move(parts[1]), middle, cycle);
   if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);

@@ -217,7 +217,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
   const double torque = task_.scenes[static_cast<std::size_t>(scene)].torque;
   const FlankCondition of_scene = condition(scene, modification);
   ++*cycles_;
-  // Where the last scenes are fewer than the threads.
+  // Where the last scenes are fewer than the threads. With for_each_in_parallel() a thread that waits for the other half would take up no further scene.
   const ForEachIndex in_halves = [](std::size_t count, const std::function<void(std::size_t)>& work) {
     tbb::parallel_for(std::size_t{0}, count, work);
   };

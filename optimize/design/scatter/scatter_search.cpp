@@ -23,8 +23,9 @@ namespace {
 constexpr int first_draws = 64, growth_of_draws = 8;
 /// A level ends where the model promises to lower the statistic by no more than this share of it: a part of the 1 % that thousands of draws do not tell apart.
 constexpr double settled = 2.5e-3;
-/// Likewise of a level whose design is only the start of the next one, which moves it by as much. It also ends with a step that lowered the statistic by no more.
+/// Likewise of a level whose design is only the start of the next one, which moves it by as much. It also ends with a step that lowers the statistic by no more.
 constexpr double settled_start = 1e-2;
+enum class Level { Start, Last };
 /// Half widths of the box, in ranges of the variables: at first, at least when a level begins, at most, and below which a level ends.
 constexpr double first_radius = 0.2, level_radius = 0.05, largest_radius = 0.5, least_radius = 1e-3;
 constexpr double poor_share = 0.25, good_share = 0.75;  // of the promised gain, see search_over_draws()
@@ -69,18 +70,18 @@ class DrawSearch {
   };
 
   /// The best design on one level by a statistic of the first draws, from x on.
-  /// @param least_gain  relative: `settled` or `settled_start`
-  Judged descend(const DesignProblem& problem, const Eigen::VectorXd& x, int draws, const Aggregation& over, double least_gain = settled) {
+  Judged descend(const DesignProblem& problem, const Eigen::VectorXd& x, int draws, const Aggregation& over, Level level = Level::Last) {
+    const double least_gain = level == Level::Start ? settled_start : settled;
     model_.objective.combine(over);
     model_.objective.smooth(std::min(draws, model_.objective.draws()));
     radius_ = std::max(radius_, level_radius);
     Judged best = judge(problem, x, draws);
     remember(true);
-    bool is_slow = false;  // the last step that gained anything gained little: enough for a start
+    bool is_enough = false;  // the last step that gained anything gained little, and this is a start
     books_.status = SolverStatus::Converged;
     while (true) {
       const ModelStep step = least_of_model(model_, best.x, radius_, draws);
-      if (is_spent() || is_slow || is_settled(step, least_gain)) {
+      if (is_spent() || is_enough || is_settled(step, least_gain)) {
         if (is_screened(best.x)) break;
         best = judge_all(problem, best.x, draws);
         remember(true);
@@ -94,8 +95,10 @@ class DrawSearch {
         if (best.gain_to(next) > 0.0) next = judge_all(problem, step.x, draws, &best);
         gain = best.gain_to(next);
         remember(gain > 0.0);
-        if (gain > 0.0) best = next;
-        if (gain > 0.0) is_slow = least_gain > settled && gain <= least_gain;
+        if (gain > 0.0) {
+          best = next;
+          is_enough = level == Level::Start && gain <= least_gain;
+        }
       } catch (const std::runtime_error&) {  // such a design cannot be analysed: a shorter step
         last_ = {};
       }
@@ -361,9 +364,9 @@ ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double
     const Aggregation approach = is_quantile ? Aggregation{Aggregate::Cvar, 2.0, task.over.level} : task.over;
     const int all = search.draws(), few = search.can_begin_with_few() ? std::min(first_draws, all) : all;
     for (int draws = few; draws < all; draws = std::min(draws * growth_of_draws, all)) {
-      design.x = search.descend(screening, design.x, draws, approach, settled_start).x;
+      design.x = search.descend(screening, design.x, draws, approach, Level::Start).x;
     }
-    if (is_quantile && few == all) design.x = search.descend(screening, design.x, all, approach, settled_start).x;
+    if (is_quantile && few == all) design.x = search.descend(screening, design.x, all, approach, Level::Start).x;
     design.x = search.descend(screening, design.x, all, task.over).x;
     if (coarse) design.x = search.descend(full, design.x, all, task.over).x;
     DrawSearch::Judged found = search.report(full, design.x);

@@ -41,7 +41,8 @@ struct ScatterDesign {
 /// had promised, and doubles where by three quarters.
 ///
 /// The search goes from cheap to dear: over the first 64 draws, then eight times as many, up to all, each by the screening resolution (screening_task()),
-/// and then over all by the task's own. Draws must therefore be in an order of which every beginning is a sample, as those of a Sobol sequence are. Over
+/// and then over all by the task's own. A level that is only the start of another over the same or more draws ends where a step gains less than 1 %, the others
+/// where the model promises less than a quarter of a per cent. Draws must therefore be in an order of which every beginning is a sample, as those of a Sobol sequence are. Over
 /// fewer draws than all a quantile is approached by the CVaR of its level, which leaves no draw out: from there on the draws left out are those that are
 /// hard for every design, not those that happened to be bad at the start. Over all draws the quantile is smoothed, StatisticModel::smooth(); `value` is the
 /// quantile itself. Last the design is made one that can be ground: settle_amounts(), whose alternatives continue the search
