@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "optimize/design/problem/joined_loads.hpp"
 #include "optimize/design/search/design_log.hpp"
 #include "optimize/design/two_level.hpp"
 
@@ -41,7 +42,11 @@ std::vector<ComparedDesign> compare_designs(const DesignProblem& problem, const 
 
 std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs) {
   if (designs.empty() || !can_be_coarser(problem.task())) return compare_designs(problem, designs);
-  std::vector<ComparedDesign> results = compare_designs(DesignProblem(coarser(problem.task())), designs);
+  JoinedLoads coarse = with_joined_loads(coarser(problem.task()));
+  std::vector<ComparedDesign> results = compare_designs(DesignProblem(std::move(coarse.task)), designs);
+  for (ComparedDesign& d : results) {
+    if (!d.scene_measures.empty()) d.scene_measures = coarse.of_scenes(d.scene_measures);
+  }
   const auto rank = [](const ComparedDesign& d) { return std::pair(d.feasible() ? 0.0 : d.constraint_violation, d.objective); };
   const int own = problem.task().resolution.quadrature.intervals;
   for (;;) {

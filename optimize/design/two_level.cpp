@@ -6,6 +6,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/search/design_log.hpp"
+#include "optimize/design/problem/joined_loads.hpp"
 #include "optimize/design/problem/task_checks.hpp"
 
 namespace flankwright {
@@ -146,7 +147,7 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
     result.objective_seen_by_search = (result.design.exact ? *result.design.exact : result.design.after).objective;
     return result;
   }
-  DesignProblem coarse_problem(coarser(problem.task()));
+  DesignProblem coarse_problem(with_joined_loads(coarser(problem.task())).task);
   DesignOptions search = options;
   search.solver.tolerance = std::max(options.solver.tolerance, coarse_tolerance);
   DesignResult coarse = optimise_design(coarse_problem, search);

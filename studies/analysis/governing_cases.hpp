@@ -24,6 +24,10 @@ std::vector<bool> most_utilised_cases(const StudyResults& results, const LifeMod
 /// results.json and 0.2 to 0.4 MB of report.html: these then stay below about 300 MB, which programs still read, and 40 MB, which a browser still opens.
 inline constexpr std::size_t most_cases_with_points = 100;
 
+/// Load cases of all designs together up to which each may be compared with a mesh of twice the intervals; beyond, those that govern. The others state the wider error that half the
+/// intervals tell of.
+inline constexpr std::size_t most_cases_compared_finely = 100;
+
 /// `output.points` as the study gives it, else all up to most_cases_with_points and those that govern beyond.
 CasesWithPoints kept_points(const StudyResults& results);
 

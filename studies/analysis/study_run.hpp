@@ -68,8 +68,8 @@ class StudyRun {
   void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles);
 
   /// Solves load cases from index `first` on anew with twice the intervals where half of them cannot say that Fidelity::resolution_accuracy is
-  /// kept, edges included, which no resolution is refined for, and those that a search has looked at so finely. Their errors by points follow. Where the study gives its
-  /// intervals it does nothing.
+  /// kept, edges included, which no resolution is refined for, and those that a search has looked at so finely. Their errors by points follow. Of more than
+  /// most_cases_compared_finely load cases it takes those that govern. Where the study gives its intervals it does nothing.
   void hold_against_finer(std::size_t first);
   struct HeldCase {
     JudgedCase judged;
@@ -113,6 +113,8 @@ class StudyRun {
   void forget_loaded();
   /// Where contact begins on the tip edges of one gear; nothing where it does not.
   std::optional<EdgeContactStart> edge_contact_of(const LoadedResult& loaded, Member gear);
+  /// On those of either gear.
+  std::optional<EdgeContactStart> first_edge_contact_of(const LoadedResult& loaded);
   void find_edge_contact();
   void note_large_motions();
   void size_effects();

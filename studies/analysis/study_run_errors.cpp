@@ -9,6 +9,7 @@
 #include "core/fidelity/resolved_analysis.hpp"
 #include "optimize/design/problem/for_each_in_parallel.hpp"
 #include "studies/analysis/film_readings.hpp"
+#include "studies/analysis/governing_cases.hpp"
 #include "studies/analysis/step_progress.hpp"
 #include "studies/analysis/study_run.hpp"
 #include "studies/study_file/study_life.hpp"
@@ -117,8 +118,11 @@ void StudyRun::hold_against_finer(std::size_t first) {
   const bool is_finest = 2 * results_.study.fidelity.quadrature.intervals > AutomaticResolution{}.most_intervals;
   std::vector<HeldCase> cases;
   std::vector<LoadedResult*> of;
-  for (LoadedResult& loaded : std::span(results_.loaded).subspan(first)) {
-    if (is_finest && loaded.design == "before") continue;
+  const bool few = results_.loaded.size() <= most_cases_compared_finely;
+  const std::vector<bool> governs = few ? std::vector<bool>(results_.loaded.size(), true) : governing_cases(results_);
+  for (std::size_t i = first; i < results_.loaded.size(); ++i) {
+    LoadedResult& loaded = results_.loaded[i];
+    if (!governs[i] || (is_finest && loaded.design == "before")) continue;
     // A search favours designs whose errors are in their favour. Its design is therefore held against every finer mesh that the search has made.
     cases.push_back({{loaded.scene, loaded.torque, &results_.models[loaded.model], &loaded.cycle, &loaded.resolved},
                      &loaded.condition,
@@ -160,7 +164,9 @@ void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
     std::shared_ptr<const MeshModel> known = mesh_of_search(placed[i].first, {quadrature, results_.phases});
     if (!known) known = std::make_shared<const MeshModel>(mesh(placed[i].first, {quadrature, results_.phases}, nullptr, results_.shafts.get(), {}));
     const MeshModel& finer = *known;
-    for (const auto& [of, is_wide] : placed[i].second) {
+    const std::vector<Held>& of_mesh = placed[i].second;
+    tbb::parallel_for(std::size_t{0}, of_mesh.size(), [&](std::size_t k) {
+      const auto& [of, is_wide] = of_mesh[k];
       const double torque = of->judged.torque;
       const LoadedCycle cycle = analyse_halves(finer, *of->condition, torque);
       const CycleErrors stated = of->resolved->error_parts.points;
@@ -169,12 +175,12 @@ void StudyRun::hold_against_finer(std::vector<HeldCase>& cases) {
       flankwright::hold_against_finer(shown, {&finer, &cycle}, further, *of->resolved);
       const std::vector<double>& phases = of->resolved->extremes.phases;
       if (is_wide && !phases.empty() && stated.edge_stress > 0.0) {
-        const MeshModel between = mesh(placed[i].first, {quadrature, phases}, nullptr, results_.shafts.get(), {});
+        const MeshModel between = mesh_at(*of->condition, torque, true, {}, quadrature)(phases);
         const LoadedCycle at_extremes = analyse_cycle(between, *of->condition, torque, {}, RootStresses::Later);
         widen_edge_errors(stated, of->resolved->summary, cycle, at_extremes, *of->resolved);
       }
       of->compared_intervals = quadrature.intervals;
-    }
+    });
     step.add_one();
   });
 }

@@ -53,6 +53,8 @@ std::vector<LoadedResult*> rated_cases(StudyResults& results) {
   return rated;
 }
 
+/// Load factors are ratios of peaks, and are read to three digits.
+constexpr PeakSearch peaks_for_factors{.value_tolerance = 1e-4};
 /// For derivatives. Points of a line that is tilted against the flank leave contact one after the other within some 1e-3 base pitches, and derivatives change
 /// with each of them.
 constexpr PeakSearch sharp_peaks{.phase_tolerance = 2e-6, .value_tolerance = 0.0};
@@ -76,7 +78,7 @@ void StudyRun::rate() {
   }
   const std::vector<MeshParameter> parameters = gradient_parameters();
   std::vector<LoadRating> ratings =
-      rate_cases(cases, results_.shafts != nullptr, parameters.empty() ? PeakSearch{} : sharp_peaks, parameters, progress_);
+      rate_cases(cases, results_.shafts != nullptr, parameters.empty() ? peaks_for_factors : sharp_peaks, parameters, progress_);
   for (std::size_t i = 0; i < rated.size(); ++i) {
     rated[i]->rating = std::move(ratings[i]);
     rated[i]->rating->quadrature = quadrature;
@@ -117,19 +119,37 @@ std::optional<EdgeContactStart> StudyRun::edge_contact_of(const LoadedResult& lo
   return edge_contact_start_near(mesh, loaded.condition, loaded.torque, *start, spacing);
 }
 
+std::optional<EdgeContactStart> StudyRun::first_edge_contact_of(const LoadedResult& loaded) {
+  std::optional<EdgeContactStart> first;
+  for (const Member gear : both_gears) {
+    if (first && first->torque == 0.0) break;
+    const std::optional<EdgeContactStart> start = edge_contact_of(loaded, gear);
+    if (start && (!first || start->torque < first->torque)) first = start;
+  }
+  return first;
+}
+
 void StudyRun::find_edge_contact() {
   const Stopwatch clock;
-  StepProgress step(progress_, "seeking contact of tip edges", results_.loaded.size());
-  tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
-    step.add_one();
-    LoadedResult& loaded = results_.loaded[i];
+  // Edges of the same flanks on the same mesh begin to touch at the same torque in every load case that has a larger one. It is sought under the least such
+  // torque, to a share of which it is found.
+  std::vector<std::vector<LoadedResult*>> alike;
+  for (LoadedResult& loaded : results_.loaded) {
     // The stress is NaN of sharp edges, and where the effect is off.
-    if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(results_.models[loaded.model], loaded.cycle)) return;
-    for (const Member gear : {Member::Pinion, Member::Wheel}) {
-      if (loaded.edge_contact && loaded.edge_contact->torque == 0.0) break;
-      const std::optional<EdgeContactStart> start = edge_contact_of(loaded, gear);
-      if (start && (!loaded.edge_contact || start->torque < loaded.edge_contact->torque)) loaded.edge_contact = start;
+    if (!std::isgreater(loaded.summary.edge_stress, 0.0) && !reaches_tip_edge(results_.models[loaded.model], loaded.cycle)) continue;
+    const auto is_like = [&](const auto& group) { return group.front()->model == loaded.model && group.front()->condition == loaded.condition; };
+    const auto found = std::ranges::find_if(alike, is_like);
+    (found != alike.end() ? *found : alike.emplace_back()).push_back(&loaded);
+  }
+  StepProgress step(progress_, "seeking contact of tip edges", alike.size());
+  tbb::parallel_for(std::size_t{0}, alike.size(), [&](std::size_t i) {
+    std::ranges::stable_sort(alike[i], {}, &LoadedResult::torque);
+    std::optional<EdgeContactStart> start;
+    for (LoadedResult* loaded : alike[i]) {
+      if (!start) start = first_edge_contact_of(*loaded);
+      loaded->edge_contact = start;
     }
+    step.add_one();
   });
   if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
   results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});

@@ -20,15 +20,21 @@ std::vector<BeamLoad> both_ends(const BeamSupport& support) {
 
 }  // namespace
 
+/// The wrench times the integrals up to a section, see C(a, b).
+BeamSystem::Wrench BeamSystem::strained(const Wrench& wrench, const Moments& lower) {
+  const auto M = wrench.segment<2>(4), g = wrench.tail<2>();
+  Wrench strained;
+  strained << lower.shear * wrench.head<2>(), lower.axial * wrench[2], lower.torsion * wrench[3], lower.bending * M - lower.bending_1 * g,
+      lower.bending_2 * g - lower.bending_1 * M;
+  return strained;
+}
+
 BeamSystem::ReducedLoad BeamSystem::reduce(const BeamLoad& load) const {
   assert(load.beam >= 0 && load.beam < std::ssize(beams_));
   const Eigen::Vector3d M = about_origin(load);
-  const Eigen::Vector2d g(-load.force.y(), load.force.x());
-  const Moments lower = beams_[static_cast<std::size_t>(load.beam)].to(load.z);
   ReducedLoad reduced{load.z, load.beam, {}, {}};
-  reduced.wrench << load.force, M.z(), M.head<2>(), g;
-  reduced.strained << lower.shear * load.force.head<2>(), lower.axial * load.force.z(), lower.torsion * M.z(),
-      lower.bending * M.head<2>() - lower.bending_1 * g, lower.bending_2 * g - lower.bending_1 * M.head<2>();
+  reduced.wrench << load.force, M.z(), M.head<2>(), -load.force.y(), load.force.x();
+  reduced.strained = strained(reduced.wrench, beams_[static_cast<std::size_t>(load.beam)].to(load.z));
   return reduced;
 }
 
@@ -126,26 +132,71 @@ Eigen::MatrixXd summed(const Eigen::MatrixXd& each, int parts) {
 }  // namespace
 
 Eigen::MatrixXd BeamSystem::combined_coupling(std::span<const BeamLoad> loads, int parts) const {
+  return summed(coupling(reduce(loads)), parts);
+}
+
+std::vector<BeamSystem::ReducedLoad> BeamSystem::reduce(std::span<const BeamLoad> loads) const {
   std::vector<ReducedLoad> reduced;
   reduced.reserve(loads.size());
   for (const BeamLoad& load : loads) reduced.push_back(reduce(load));
-  return summed(coupling(reduced), parts);
+  return reduced;
+}
+
+std::vector<bool> BeamSystem::at_one_section(const std::vector<ReducedLoad>& loads, int parts) {
+  std::vector<bool> shared;
+  const auto step = static_cast<std::size_t>(parts);
+  for (std::size_t first = 0; first < step; ++first) {
+    bool same = true;
+    for (std::size_t i = first; i < loads.size(); i += step) same = same && loads[i].z == loads[first].z && loads[i].beam == loads[first].beam;
+    shared.push_back(same);
+  }
+  return shared;
+}
+
+Eigen::MatrixXd BeamSystem::clamped_at(const ReducedLoad& section, const std::vector<ReducedLoad>& loads, int parts, const std::vector<bool>& counts) const {
+  const Moments lower = beams_[static_cast<std::size_t>(section.beam)].to(section.z);
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(Wrench::RowsAtCompileTime, std::ssize(loads) / parts);
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const ReducedLoad& load = loads[i];
+    if (load.beam != section.beam || !counts[i % static_cast<std::size_t>(parts)]) continue;
+    sum.col(static_cast<Eigen::Index>(i) / parts) += load.z < section.z ? load.strained : strained(load.wrench, lower);
+  }
+  return sum;
+}
+
+Eigen::MatrixXd BeamSystem::wrenches_of(const std::vector<ReducedLoad>& loads, std::size_t part, int parts) {
+  Eigen::MatrixXd wrenches(Wrench::RowsAtCompileTime, std::ssize(loads) / parts);
+  for (Eigen::Index i = 0; i < wrenches.cols(); ++i) wrenches.col(i) = loads[part + static_cast<std::size_t>(i * parts)].wrench;
+  return wrenches;
+}
+
+void BeamSystem::add_clamped(const std::vector<ReducedLoad>& rows, const std::vector<ReducedLoad>& columns, int row_parts, int column_parts,
+                             Eigen::MatrixXd& result) const {
+  const std::vector<bool> rows_shared = at_one_section(rows, row_parts), columns_shared = at_one_section(columns, column_parts);
+  std::vector<bool> wandering = columns_shared;
+  wandering.flip();
+  const std::vector<bool> all(rows_shared.size(), true);
+  for (std::size_t c = 0; c < columns_shared.size(); ++c) {
+    if (columns_shared[c]) result += clamped_at(columns[c], rows, row_parts, all).transpose() * wrenches_of(columns, c, column_parts);
+  }
+  for (std::size_t r = 0; r < rows_shared.size(); ++r) {
+    if (rows_shared[r]) result += wrenches_of(rows, r, row_parts).transpose() * clamped_at(rows[r], columns, column_parts, wandering);
+  }
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    if (!wandering[j % wandering.size()]) continue;
+    const ReducedLoad& column = columns[j];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (rows_shared[i % rows_shared.size()] || rows[i].beam != column.beam) continue;
+      result(static_cast<Eigen::Index>(i) / row_parts, static_cast<Eigen::Index>(j) / column_parts) += clamped(rows[i], column);
+    }
+  }
 }
 
 Eigen::MatrixXd BeamSystem::flexibility(std::span<const BeamLoad> rows, std::span<const BeamLoad> columns, int row_parts, int column_parts) const {
-  std::vector<ReducedLoad> of_rows, of_columns;
-  of_rows.reserve(rows.size());
-  of_columns.reserve(columns.size());
-  for (const BeamLoad& load : rows) of_rows.push_back(reduce(load));
-  for (const BeamLoad& load : columns) of_columns.push_back(reduce(load));
+  const std::vector<ReducedLoad> of_rows = reduce(rows), of_columns = reduce(columns);
   Eigen::MatrixXd result =
       -compliance_scale_ * (summed(coupling(of_rows), row_parts) * released_.solve(summed(coupling(of_columns), column_parts).transpose()));
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-      if (of_rows[i].beam != of_columns[j].beam) continue;
-      result(static_cast<Eigen::Index>(i) / row_parts, static_cast<Eigen::Index>(j) / column_parts) += clamped(of_rows[i], of_columns[j]);
-    }
-  }
+  add_clamped(of_rows, of_columns, row_parts, column_parts, result);
   return result;
 }
 

@@ -111,8 +111,18 @@ class BeamSystem {
     auto force() const { return wrench.head<3>(); }
     Eigen::Vector3d moment() const { return {wrench[4], wrench[5], wrench[3]}; }
   };
+  static Wrench strained(const Wrench& wrench, const Moments& lower);
   ReducedLoad reduce(const BeamLoad& load) const;
+  std::vector<ReducedLoad> reduce(std::span<const BeamLoad> loads) const;
   static double clamped(const ReducedLoad& a, const ReducedLoad& b) { return a.z < b.z ? a.strained.dot(b.wrench) : b.strained.dot(a.wrench); }
+  /// Which parts of combined loads act at the same section of all of them.
+  static std::vector<bool> at_one_section(const std::vector<ReducedLoad>& loads, int parts);
+  /// The strained wrenches at one section, of combined loads by those of their parts that count, a column each: C(a, section) = column . wrench there.
+  Eigen::MatrixXd clamped_at(const ReducedLoad& section, const std::vector<ReducedLoad>& loads, int parts, const std::vector<bool>& counts) const;
+  static Eigen::MatrixXd wrenches_of(const std::vector<ReducedLoad>& loads, std::size_t part, int parts);
+  /// Adds C between combined loads. Parts that act at one section of all loads are products of matrices.
+  void add_clamped(const std::vector<ReducedLoad>& rows, const std::vector<ReducedLoad>& columns, int row_parts, int column_parts,
+                   Eigen::MatrixXd& result) const;
   double arm(const BeamSupport& support) const;
   Eigen::MatrixXd coupling(const std::vector<ReducedLoad>& loads) const;
   Eigen::MatrixXd combined_coupling(std::span<const BeamLoad> loads, int parts) const;

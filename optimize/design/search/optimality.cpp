@@ -79,9 +79,8 @@ void add_neighbours(EpigraphProgram& program, const Eigen::VectorXd& y, int desi
 
 /// Whether a row or a bound of a variable is a limit of the task, and not a peak or a part of how the programme is written.
 bool is_limit(const ActiveBound& bound) {
-  using Kind = EpigraphRow::Kind;
-  return bound.variable >= 0 || bound.row.kind == Kind::OutputBound || bound.row.kind == Kind::ObjectiveBound ||
-         bound.row.kind == Kind::ModificationBound;
+  using enum EpigraphRow::Kind;
+  return bound.variable >= 0 || bound.row.kind == OutputBound || bound.row.kind == ObjectiveBound || bound.row.kind == ModificationBound;
 }
 
 /// Which rows may have a multiplier: all but the limits that no design is at whose variables differ by at most a share of their ranges, to first order.

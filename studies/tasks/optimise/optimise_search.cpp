@@ -224,14 +224,21 @@ void OptimiseSearch::take_better_rule(DesignProblem& problem, const DesignOption
 
 std::vector<NamedDesign> OptimiseSearch::promising(const DesignProblem& problem, const std::vector<NamedDesign>& designs,
                                                    const DesignReport& found) const {
-  constexpr double by_resolution = 0.1;  // of an objective, as the coarse resolution of a search may have it less than the task's own
+  constexpr double by_resolution = 0.1;  // of a stress, as the coarse resolution of a search may have it less than the task's own
   const DesignTask& task = problem.task();
-  if (task.over != Aggregate::Worst || task.combined_objective().over_spectrum() || found.scene_measures.empty()) return designs;
-  const auto worst = std::ranges::max_element(found.scene_measures) - found.scene_measures.begin();
-  const std::vector<ComparedDesign> compared = compare_designs_by_two_levels(problem.over_scenes({static_cast<int>(worst)}), designs);
+  if (task.over != Aggregate::Worst || found.scene_measures.empty()) return designs;
+  const auto worst = static_cast<int>(std::ranges::max_element(found.scene_measures) - found.scene_measures.begin());
+  const bool over_spectrum = task.combined_objective().over_spectrum();
+  const int spectrum = task.scenes[static_cast<std::size_t>(worst)].spectrum;
+  std::vector<int> scenes;
+  for (int s = 0; s < problem.scenes(); ++s) {
+    if (s == worst || (over_spectrum && task.scenes[static_cast<std::size_t>(s)].spectrum == spectrum)) scenes.push_back(s);
+  }
+  const std::vector<ComparedDesign> compared = compare_designs_by_two_levels(problem.over_scenes(scenes), designs);
+  const double margin = std::pow(1.0 + by_resolution, task.combined_objective().growth()) - 1.0;
   std::vector<NamedDesign> some;
   for (const ComparedDesign& of : compared) {
-    if (of.failure.empty() && of.objective < found.objective + by_resolution * std::abs(found.objective)) some.push_back(of.design);
+    if (of.failure.empty() && of.objective < found.objective + margin * std::abs(found.objective)) some.push_back(of.design);
   }
   return some;
 }
