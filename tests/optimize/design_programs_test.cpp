@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "optimize/design/search/direct_program.hpp"
 #include "optimize/design/search/epigraph_program.hpp"
@@ -75,6 +76,44 @@ TEST_CASE("The epigraph starts feasible and promises what the true outputs are",
   CHECK(program.add_candidates(elsewhere) == 0);  // all known by now
   program.restart_from(elsewhere);
   check_promise(elsewhere);
+}
+
+TEST_CASE("The rows see a design as better than it is where a peak has no candidate, and as it is once they have it", "[optimize][design]") {
+  const bool is_list = GENERATE(false, true);
+  DesignTask task = helical({0.0});
+  task.leading_share = 0.01;  // candidates of a single peak
+  task.constraints = {{term(Output::PeakLineLoad), 100.0}};
+  DesignProblem problem(task);
+  if (is_list)
+    problem = problem.judged_by(task.combined_objective(), {{task.combined_objective(), 500.0}}, {{task.combined_objective(), 0.0, 100.0}});
+  DesignLog log(nullptr);
+  EpigraphProgram program(problem, log);
+  CHECK(std::isnan(program.seen_by_rows().objective));  // nothing evaluated yet
+  constexpr double round_off = 1e-12;
+  const Eigen::Vector3d elsewhere(0.0, 0.0, 0.0);  // a slope that loads the other end
+  Eigen::VectorXd y = program.start();
+  y.head(3) = elsewhere;
+  (void)program.evaluate(y, false);
+  const DesignAnalysis& analysis = problem.analyse(elsewhere, true);
+  const double objective = program.seen(problem.objective(analysis)), violation = problem.violation(analysis);
+  CHECK(program.seen_by_rows().objective < 0.99 * objective);
+  CHECK(program.seen_by_rows().violation < 0.99 * violation);
+  CHECK(program.add_candidates(elsewhere) > 0);
+  program.restart_from(elsewhere);
+  (void)program.evaluate(y, false);
+  CHECK(program.seen_by_rows().objective == Approx(objective).epsilon(round_off));
+  CHECK(program.seen_by_rows().violation == Approx(violation).epsilon(round_off));
+}
+
+TEST_CASE("A majorant does not tell what its rows see", "[optimize][design]") {
+  DesignTask task = helical();
+  task.over = {Aggregate::Quantile, 2.0, 0.5};
+  DesignProblem problem(task);
+  DesignLog log(nullptr);
+  EpigraphProgram program(problem, log);
+  (void)program.evaluate(program.start(), false);
+  REQUIRE(program.is_majorant());
+  CHECK(std::isnan(program.seen_by_rows().objective));
 }
 
 TEST_CASE("A candidate above its bound violates the epigraph", "[optimize][design]") {

@@ -9,6 +9,7 @@
 #include "optimize/design/search/epigraph_program.hpp"
 #include "optimize/design/search/local_model.hpp"
 #include "optimize/design/outputs/scene_outputs.hpp"
+#include "optimize/design/problem/joined_loads.hpp"
 #include "tests/common/random.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/output_gradients.hpp"
@@ -221,6 +222,50 @@ TEST_CASE("Damage is a sum over the load cases of a spectrum, of which the worst
   const std::vector<double> measures = problem.scene_measures(problem.task().combined_objective(), analysis);
   CHECK(measures == std::vector<double>{found, found, found, measures[3], measures[3], measures[3]});
   CHECK(problem.objective(analysis) == std::max(found, measures[3]));
+}
+
+TEST_CASE("Joined load cases have the cycles of all and the torque that does their damage", "[optimize][design][life]") {
+  DesignTask task = task_under_spectrum();
+  task.constraints.clear();
+  task.objective = {term(Output::RootDamage)};  // stress in proportion to the torque on thin slices that touch all along
+  constexpr double ratio = 1.05;
+  for (const int s : {0, 3}) {  // beside the largest load of either spectrum one that is a little less
+    DesignScene near = task.scenes[static_cast<std::size_t>(s)];
+    near.torque /= ratio;
+    near.operation.revolutions *= 3.0;
+    task.scenes.push_back(near);
+  }
+  const JoinedLoads joined = with_joined_loads(task);
+  REQUIRE(joined.task.scenes.size() == 6);
+  CHECK(joined.joined_into == std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 0, 3});
+  const double growth = design_output(Output::RootDamage).load_growth;
+  const DesignScene &one = joined.task.scenes[0], &large = task.scenes[0], &small = task.scenes[6];
+  CHECK(one.operation.revolutions == large.operation.revolutions + small.operation.revolutions);
+  CHECK(one.operation.revolutions * std::pow(one.torque, growth) ==
+        Approx(large.operation.revolutions * std::pow(large.torque, growth) + small.operation.revolutions * std::pow(small.torque, growth))
+            .epsilon(1e-12));  // round-off
+  CHECK(one.torque < large.torque);
+  CHECK(one.torque > small.torque);
+  CHECK(joined.task.scenes[1].torque == task.scenes[1].torque);
+  CHECK(joined.of_scenes({1, 2, 3, 4, 5, 6}) == std::vector<double>{1, 2, 3, 4, 5, 6, 1, 4});
+  // The damage is nearly that of both. With another power q of the load it is off by q (q - g) / 2 times the variance: 1/5 of ratio - 1 squared, with weights 1 and 3.
+  DesignProblem all(task), fewer(joined.task);
+  const double whole = all.objective(all.analyse(all.start(), false)), found = fewer.objective(fewer.analyse(fewer.start(), false));
+  constexpr double largest_power = 20.0;
+  CHECK(std::abs(found / whole - 1.0) < 0.5 * largest_power * (largest_power - growth) * 0.2 * (ratio - 1.0) * (ratio - 1.0));
+}
+
+TEST_CASE("Load cases are joined where nothing but torque and duration tells them apart, and only for sums over a spectrum",
+          "[optimize][design][life]") {
+  DesignTask task = task_under_spectrum();
+  task.constraints.clear();
+  for (DesignScene& scene : task.scenes) scene.torque = 1e5 + scene.bin;  // all bins within 1.1
+  CHECK(with_joined_loads(task).task.scenes.size() == 2);                 // one for either misalignment
+  task.scenes[1].operation.temperature = 90.0;
+  task.scenes[4].condition.misalignment.mesh_misalignment += 1e-3;
+  CHECK(with_joined_loads(task).task.scenes.size() == 4);
+  task.constraints = {{.output = term(Output::PeakContactStress), .maximum = 1e4}};  // a peak is of one load case
+  CHECK(with_joined_loads(task).task.scenes.size() == 6);
 }
 
 TEST_CASE("Twice the hours double the damage of a design", "[optimize][design][life]") {

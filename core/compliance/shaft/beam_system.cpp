@@ -131,9 +131,7 @@ Eigen::MatrixXd summed(const Eigen::MatrixXd& each, int parts) {
 
 }  // namespace
 
-Eigen::MatrixXd BeamSystem::combined_coupling(std::span<const BeamLoad> loads, int parts) const {
-  return summed(coupling(reduce(loads)), parts);
-}
+Eigen::MatrixXd BeamSystem::combined_coupling(std::span<const BeamLoad> loads, int parts) const { return summed(coupling(reduce(loads)), parts); }
 
 std::vector<BeamSystem::ReducedLoad> BeamSystem::reduce(std::span<const BeamLoad> loads) const {
   std::vector<ReducedLoad> reduced;
@@ -153,7 +151,8 @@ std::vector<bool> BeamSystem::at_one_section(const std::vector<ReducedLoad>& loa
   return shared;
 }
 
-Eigen::MatrixXd BeamSystem::clamped_at(const ReducedLoad& section, const std::vector<ReducedLoad>& loads, int parts, const std::vector<bool>& counts) const {
+Eigen::MatrixXd BeamSystem::clamped_at(const ReducedLoad& section, const std::vector<ReducedLoad>& loads, int parts,
+                                       const std::vector<bool>& counts) const {
   const Moments lower = beams_[static_cast<std::size_t>(section.beam)].to(section.z);
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(Wrench::RowsAtCompileTime, std::ssize(loads) / parts);
   for (std::size_t i = 0; i < loads.size(); ++i) {

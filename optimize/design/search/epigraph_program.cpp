@@ -161,6 +161,7 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
     tau = problem_.objective(analysis);
   }
   choose_rows(analysis);
+  seen_by_rows_ = {};
 }
 
 void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
@@ -270,6 +271,35 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
   }
 }
 
+EpigraphProgram::SeenByRows EpigraphProgram::judged_by_rows(const Eigen::VectorXd& y, const ProgramValues& values) const {
+  if (is_majorant()) return {};
+  const DesignTask& task = problem_.task();
+  Eigen::VectorXd least = Eigen::VectorXd::Zero(variables());  // the variables at what the rows ask for
+  SeenByRows seen{.objective = 0.0, .violation = 0.0};
+  for (int at = 0; at < constraints(); ++at) {
+    const EpigraphRow& row = rows_[static_cast<std::size_t>(at)];
+    if (row.kind == Kind::Floor) {
+      const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(row.objective)];
+      const int u = block.bound(block.scene_of(row.scene), row.index);
+      least[u] = std::max(least[u], values.constraints[at] + y[u]);
+    } else if (row.kind == Kind::OutputBound || row.kind == Kind::ModificationBound) {
+      seen.violation = std::max(seen.violation, values.constraints[at]);
+    }
+  }
+  std::vector<double> objectives;  // outside units
+  for (const ObjectiveBlock& block : blocks_) {
+    block.complete(least);
+    objectives.push_back(block.objective_of(block.value(least).value).value);
+  }
+  for (std::size_t i = 0; i < task.scalarisation.size(); ++i) seen.objective = std::max(seen.objective, task.scalarisation[i].part(objectives[i]));
+  if (!is_scalarised()) seen.objective = this->seen(objectives.front());
+  for (std::size_t i = 0; i < task.objective_bounds.size(); ++i) {
+    const double value = objectives[static_cast<std::size_t>(objectives_minimised()) + i];
+    seen.violation = std::max(seen.violation, value / task.objective_bounds[i].limit - 1.0);
+  }
+  return seen;
+}
+
 ProgramValues EpigraphProgram::evaluate(const Eigen::VectorXd& y, bool with_gradients) {
   const Eigen::VectorXd x = design(y);
   const DesignAnalysis& analysis = problem_.analyse(x, true);
@@ -286,6 +316,7 @@ ProgramValues EpigraphProgram::evaluate(const Eigen::VectorXd& y, bool with_grad
     }
     write_row(row, at, y, analysis, values);
   }
+  seen_by_rows_ = judged_by_rows(y, values);
   if (is_scalarised()) {
     values.objective = y[variables() - 1];
     values.objective_gradient = Eigen::VectorXd::Unit(variables(), variables() - 1);

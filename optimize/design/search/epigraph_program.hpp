@@ -60,6 +60,13 @@ class EpigraphProgram : public NonlinearProgram {
   bool is_majorant() const;
   /// What each constraint of the programme is, in their order.
   const std::vector<EpigraphRow>& rows() const { return rows_; }
+  /// What the rows alone make of a design: it is better than it is where a peak has no candidate among them.
+  struct SeenByRows {
+    double objective{not_given};  ///< as seen() has it
+    double violation{not_given};  ///< as DesignProblem::violation() has it, at least 0 [-]
+  };
+  /// Of the last evaluation; NaN where there is none since the rows were chosen, and of a majorant, whose rows are to see other peaks than the task.
+  const SeenByRows& seen_by_rows() const { return seen_by_rows_; }
   /// Change of each row at the last evaluation by its output, of Floor, Ceiling and OutputBound [1/inside unit]; 0 of other rows.
   const std::vector<double>& by_output() const { return by_output_; }
 
@@ -79,6 +86,7 @@ class EpigraphProgram : public NonlinearProgram {
   void write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, const std::function<Slope(double)>& excess,
                        ProgramValues& values) const;
   void choose_rows(const DesignAnalysis& analysis);
+  SeenByRows judged_by_rows(const Eigen::VectorXd& y, const ProgramValues& values) const;
 
   DesignProblem& problem_;
   DesignLog& log_;
@@ -86,6 +94,7 @@ class EpigraphProgram : public NonlinearProgram {
   std::set<EpigraphRow> candidates_;    ///< floors and upper output bounds met so far
   std::vector<EpigraphRow> rows_;
   std::vector<double> by_output_;
+  SeenByRows seen_by_rows_;
   int variables_{0};
   Eigen::VectorXd start_;
 };

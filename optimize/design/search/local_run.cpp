@@ -45,21 +45,42 @@ struct Standing {
   bool feasible{false};
   double value{std::numeric_limits<double>::infinity()};  ///< [-]
 
-  static Standing of(const EpigraphProgram& program, const DesignLog& log) {
-    const DesignLog::Entry& best = *log.best();
-    const bool feasible = best.constraint_violation <= DesignLog::tolerance;
-    return {feasible, feasible ? program.seen(best.objective) : best.constraint_violation};
+  /// @param objective  as the programme sees it
+  static Standing of(double objective, double violation) {
+    const bool feasible = violation <= DesignLog::tolerance;
+    return {feasible, feasible ? objective : violation};
   }
+  static Standing of(const EpigraphProgram& program, const DesignLog::Entry& entry) {
+    return of(program.seen(entry.objective), entry.constraint_violation);
+  }
+  static Standing of(const EpigraphProgram& program, const DesignLog& log) { return of(program, *log.best()); }
   /// Better than before by more than a share of the objective at the start, or of the bounds that are violated.
   bool gains_on(const Standing& before, double share) const { return feasible != before.feasible || !(value >= before.value - share); }
 };
 
+/// Whether the rows see the last design better than the best before it, which it is not: a peak has no candidate yet. All steps to come would go after the same
+/// gain that is none, so that a round ends there, and the next has the candidates of that design. At least one is new, or it is a stall like others.
+bool adds_overlooked(EpigraphProgram& program, const DesignLog& log, const Standing& best, double least_gain) {
+  const auto& [objective, violation] = program.seen_by_rows();
+  if (std::isnan(objective) || best.value == std::numeric_limits<double>::infinity()) return false;
+  const Standing by_rows = Standing::of(objective, violation), last = Standing::of(program, log.entries().back());
+  const bool is_better = last.feasible != best.feasible ? last.feasible : last.value < best.value;
+  const bool seems_better = by_rows.feasible != best.feasible ? by_rows.feasible : by_rows.value < best.value - least_gain;
+  return seems_better && !is_better && program.add_candidates(log.entries().back().x) > 0;
+}
+
 /// Says that a search has stalled. `log` may still be empty when it is asked.
-std::function<std::string()> when_stalled(const EpigraphProgram& program, const DesignLog& log, double least_gain, std::size_t window) {
-  return [&program, &log, window, least_gain, at = std::size_t{0}, best = Standing{}]() mutable -> std::string {
+/// @param overlooked  set where it ends by adds_overlooked(); null: it does not
+std::function<std::string()> when_stalled(EpigraphProgram& program, const DesignLog& log, double least_gain, std::size_t window, bool* overlooked) {
+  return [&program, &log, window, least_gain, overlooked, at = std::size_t{0}, best = Standing{}]() mutable -> std::string {
     if (log.best() == nullptr) return {};
     const Standing now = Standing::of(program, log);
-    if (now.gains_on(best, now.feasible ? least_gain * std::abs(program.seen(log.entries().front().objective)) : least_gain)) {
+    const double gain = now.feasible ? least_gain * std::abs(program.seen(log.entries().front().objective)) : least_gain;
+    if (overlooked != nullptr && adds_overlooked(program, log, best, gain)) {
+      *overlooked = true;
+      return "a peak that the programme had no candidate of";
+    }
+    if (now.gains_on(best, gain)) {
       best = now;
       at = log.entries().size();
     }
@@ -88,12 +109,21 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   std::string solver = options.name;
   std::size_t patience = patience_of(solver);
   const bool has_finisher = options.finisher != "none" && options.finisher != options.name;
-  for (run.rounds = 1; run.rounds <= most_rounds; ++run.rounds) {
+  run.rounds = 0;
+  for (int whole_rounds = 0; whole_rounds < most_rounds;) {
+    ++run.rounds;
     SolverOptions round = remaining(options, problem.analyses() - analyses_before, clock.seconds());
     round.name = solver;
-    round.stop_when = when_stalled(program, log, stall_gain_of(options), patience);
+    // Others than an active-set method do not go down at every step.
+    bool overlooked = false;
+    round.stop_when = when_stalled(program, log, stall_gain_of(options), patience, patience_of(solver) == impatient ? &overlooked : nullptr);
     const SolverResult solved = solve(program, round);
     run.status = solved.status;
+    if (overlooked && solved.status == SolverStatus::Stalled) {
+      program.restart_from(log.best()->x);
+      continue;
+    }
+    ++whole_rounds;
     run.message = run.finished_by.empty() ? solved.message : solved.message + " (after " + options.name + " stalled on a kink: " + solver + ")";
     run.failures += solved.failures;
     if (solved.x.size() == 0 || solved.status == SolverStatus::EvaluationLimit || solved.status == SolverStatus::TimeLimit) break;

@@ -44,6 +44,17 @@ TEST_CASE("An analysis knows the load on a tip edge to within 2 per cent of the 
   }
 }
 
+TEST_CASE("Edges of the same flanks are reached at the same torque whatever the load beyond", "[studies][edge]") {
+  const Json results = results_of(on_its_edges);
+  const auto start = [](const Json& loaded) { return loaded.at("summary").at("edge_contact").at("begins_at_torque_Nm").get<double>(); };
+  const double torque = start(results.at("loaded")[0]);
+  CHECK(torque < 60.0);
+  for (const Json& loaded : results.at("loaded")) CHECK(start(loaded) == torque);
+  // Alone, the largest torque finds it to two thousandths of itself.
+  const Json alone = results_of(on_its_edges, {{"load.torque", "200"}});
+  CHECK(start(alone.at("loaded")[0]) == Approx(torque).margin(2.0 * 2e-3 * 200.0));
+}
+
 TEST_CASE("The torque at which an edge is reached is that of many positions, whichever gear's edge comes first", "[studies][edge]") {
   // At few positions the wheel's edge seems to come first; the pinion's is reached earlier, between two of them.
   const auto start = [&](const char* positions) {
