@@ -53,8 +53,6 @@ std::vector<LoadedResult*> rated_cases(StudyResults& results) {
   return rated;
 }
 
-/// Load factors are ratios of peaks, and are read to three digits.
-constexpr PeakSearch peaks_for_factors{.value_tolerance = 1e-4};
 /// For derivatives. Points of a line that is tilted against the flank leave contact one after the other within some 1e-3 base pitches, and derivatives change
 /// with each of them.
 constexpr PeakSearch sharp_peaks{.phase_tolerance = 2e-6, .value_tolerance = 0.0};
@@ -78,7 +76,7 @@ void StudyRun::rate() {
   }
   const std::vector<MeshParameter> parameters = gradient_parameters();
   std::vector<LoadRating> ratings =
-      rate_cases(cases, results_.shafts != nullptr, parameters.empty() ? peaks_for_factors : sharp_peaks, parameters, progress_);
+      rate_cases(cases, results_.shafts != nullptr, parameters.empty() ? PeakSearch{} : sharp_peaks, parameters, progress_);
   for (std::size_t i = 0; i < rated.size(); ++i) {
     rated[i]->rating = std::move(ratings[i]);
     rated[i]->rating->quadrature = quadrature;

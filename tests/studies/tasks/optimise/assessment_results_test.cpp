@@ -237,7 +237,7 @@ tip_relief = { amount = 0, height = 2 }
 [wheel.modification]
 tip_relief = { amount = 0, height = 2 }
 [load]
-torque = 475
+torque = 450
 [fidelity]
 compliance = "thin_slice"
 effect_sizes = "off"
