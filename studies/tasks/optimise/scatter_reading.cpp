@@ -66,6 +66,17 @@ void check_classes(StudyReading& reading) {
   if (repeats || has_parts) reading.refuse_key(path, "allowed are integers 1 .. 11, each once");
 }
 
+/// A seed that is not given is the first from its usual one on that makes other draws.
+void settle_seeds(StudyReading& reading) {
+  ScatterTable& scatter = reading.builder.study.table<OptimiseTable>().scatter;
+  const auto is_given = [&](const char* key) { return reading.find(std::string(scatter_name) + "." + key) != nullptr; };
+  const auto settle = [&](const char* key, unsigned long& seed, unsigned long one, unsigned long other) {
+    while (!is_given(key) && (seed == one || seed == other)) ++seed;
+  };
+  settle("fresh_seed", scatter.fresh_seed, scatter.seed, is_given("predicted_seed") ? scatter.predicted_seed : scatter.seed);
+  settle("predicted_seed", scatter.predicted_seed, scatter.seed, scatter.fresh_seed);
+}
+
 void check_task(StudyReading& reading) {
   const OptimiseTable& optimise = reading.builder.study.table<OptimiseTable>();
   const auto refuse = [&](const std::string& path, const char* allowed) { reading.refuse_key(path, allowed); };
@@ -127,6 +138,7 @@ void read_scatter(StudyReading& reading) {
     if (scatter.fresh > 0) refuse_without_draws("fresh");
     return;
   }
+  settle_seeds(reading);
   check_task(reading);
   const PairData& data = study.pair;
   if (!reading.problems.empty() || !find_problems(data).empty()) return;

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "core/gear/flank_tolerances.hpp"
 #include "studies/analysis/study_notes.hpp"
@@ -64,6 +65,19 @@ TEST_CASE("A draw whose axes are so far apart that no teeth meet is refused", "[
   REQUIRE(refused("{ uniform = [0, 100] }"));
   CHECK(refused("{ uniform = [0, 100] }")->path == "misalignment.centre_distance");
   CHECK_THAT(refused("{ uniform = [0, 100] }")->allowed, Contains("total contact ratio of at least 1"));
+}
+
+TEST_CASE("Seeds that are not given make other draws than those that are", "[studies][scatter]") {
+  const auto scatter = [](const std::string& seeds) {
+    return read("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nfresh = 10\n" + seeds).table<OptimiseTable>().scatter;
+  };
+  CHECK(scatter("").fresh_seed == 2);
+  CHECK(scatter("").predicted_seed == 3);
+  for (const std::string seeds : {"seed = 2\n", "seed = 3\n", "predicted_seed = 2\n", "fresh_seed = 3\n", "seed = 2\npredicted_seed = 3\n"}) {
+    CAPTURE(seeds);
+    const ScatterTable of = scatter(seeds);
+    CHECK(std::set{of.seed, of.predicted_seed, of.fresh_seed}.size() == 3);
+  }
 }
 
 TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
