@@ -42,7 +42,8 @@ std::vector<ComparedDesign> compare_designs(const DesignProblem& problem, const 
 
 std::vector<ComparedDesign> compare_designs_by_two_levels(const DesignProblem& problem, const std::vector<NamedDesign>& designs) {
   if (designs.empty() || !can_be_coarser(problem.task())) return compare_designs(problem, designs);
-  JoinedLoads coarse = with_joined_loads(coarser(problem.task()));
+  constexpr double widest = 1.2;  // of loads that are joined: designs that are compared differ by more than a search tells apart
+  JoinedLoads coarse = with_joined_loads(coarser(problem.task()), widest);
   std::vector<ComparedDesign> results = compare_designs(DesignProblem(std::move(coarse.task)), designs);
   for (ComparedDesign& d : results) {
     if (!d.scene_measures.empty()) d.scene_measures = coarse.of_scenes(d.scene_measures);

@@ -10,13 +10,6 @@ namespace flankwright {
 
 namespace {
 
-/// Of the outputs of an objective the largest.
-double growth_of(const Objective& objective) {
-  double growth = 1.0;
-  for (const ObjectiveTerm& term : objective.terms) growth = std::max(growth, design_output(term.output).growth);
-  return growth;
-}
-
 /// What brings a load case near to deciding, relative to the worst objective or to a limit [-].
 constexpr double margin = 2.0 * change_by_intervals;
 
@@ -27,7 +20,7 @@ std::vector<int> deciding(const DesignProblem& problem, const DesignReport& repo
   std::set<int> scenes;
   const auto is_sum = [](const OutputConstraint& constraint) { return design_output(constraint.output.output).over_spectrum; };
   const bool all = task.over != Aggregate::Worst || std::ranges::any_of(task.constraints, is_sum);
-  const double near = margin * growth_of(task.combined_objective());
+  const double near = margin * task.combined_objective().growth();
   const double worst = std::ranges::max(report.scene_measures);
   for (int s = 0; s < problem.scenes(); ++s) {
     if (all || report.scene_measures[static_cast<std::size_t>(s)] >= worst - near * std::abs(worst)) scenes.insert(s);
@@ -88,7 +81,7 @@ bool is_turned(const DesignTask& task, const DesignReport& report, const DesignR
                double change) {
   const double excess = largest_excess(task, report), seen_excess = largest_excess(task, seen);
   if (infeasible) return std::abs(seen_excess - excess) > change * (1.0 + excess);
-  const double growth = growth_of(task.combined_objective());
+  const double growth = task.combined_objective().growth();
   return seen_excess > std::max(excess, 0.0) + 0.5 * change ||
          std::abs(seen.objective - report.objective) > change * growth * std::abs(report.objective) ||
          lead_lost(task, report, seen, scenes) > change * growth;

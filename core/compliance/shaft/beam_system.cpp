@@ -23,10 +23,10 @@ std::vector<BeamLoad> both_ends(const BeamSupport& support) {
 /// The wrench times the integrals up to a section, see C(a, b).
 BeamSystem::Wrench BeamSystem::strained(const Wrench& wrench, const Moments& lower) {
   const auto M = wrench.segment<2>(4), g = wrench.tail<2>();
-  Wrench strained;
-  strained << lower.shear * wrench.head<2>(), lower.axial * wrench[2], lower.torsion * wrench[3], lower.bending * M - lower.bending_1 * g,
+  Wrench result;
+  result << lower.shear * wrench.head<2>(), lower.axial * wrench[2], lower.torsion * wrench[3], lower.bending * M - lower.bending_1 * g,
       lower.bending_2 * g - lower.bending_1 * M;
-  return strained;
+  return result;
 }
 
 BeamSystem::ReducedLoad BeamSystem::reduce(const BeamLoad& load) const {

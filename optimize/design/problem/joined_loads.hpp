@@ -22,7 +22,7 @@ struct JoinedLoads {
 ///
 /// Damage that grows with another power q is off by about q (q - g) times the variance of the torques over their mean square, halved. Nothing is joined unless all outputs of the task are
 /// sums over the spectrum: a peak belongs to one load case.
-/// @param widest  > 1; 1.2: a variance of 0.3 % at most
+/// @param widest  > 1; the variance is at most ((widest - 1) / (widest + 1))^2, 0.2 % with 1.1
 JoinedLoads with_joined_loads(DesignTask task, double widest = 1.1);
 
 }  // namespace flankwright
