@@ -22,7 +22,7 @@ namespace flankwright::studies {
 namespace {
 
 /// The intervals of the analysis, 24 at most where it chooses them: ratios of peaks are known better than the peaks, and each load case is solved under
-/// several conditions. Where only the strength asks for load factors 12 do, as many as an analysis begins with: S_H takes their root, and K_H of an EV stage and a wind stage is
+/// several conditions. Where only the strength asks for load factors 12 do, as many as an analysis begins with: S_H takes their root, and K_H without spikes of an EV stage and a wind stage is
 /// within 0.7 % of that by 48 intervals with either.
 Quadrature rating_quadrature(const Study& study) {
   const int enough = locates_peaks(study) ? 24 : 12;
