@@ -9,6 +9,7 @@
 #include "optimize/design/scatter/model_step.hpp"
 #include "optimize/design/scatter/scatter_search.hpp"
 #include "optimize/design/scatter/screening.hpp"
+#include "optimize/design/two_level.hpp"
 #include "optimize/sampling/distribution.hpp"
 #include "optimize/sampling/sample_design.hpp"
 #include "tests/common/random.hpp"
@@ -301,6 +302,22 @@ TEST_CASE("Few draws are analysed as the task asks, and the statistic is that of
   DesignProblem whole(task);
   constexpr double by_start = 1e-9;  // as above
   CHECK(found.value == Approx(whole.objective(whole.analyse(found.x, false))).epsilon(by_start));
+}
+
+TEST_CASE("A search from a design found over the same draws ends where the screening knows no better one", "[optimize][design][scatter]") {
+  DesignTask task = over_draws({Aggregate::Quantile, 2.0, 0.9});
+  task.resolution.quadrature = {QuadratureRule::Graded, 8};
+  REQUIRE(can_be_coarser(task));
+  const ScatterDesign found = search_over_draws(task, {0.0, 0.0}, slsqp());
+  const DesignProblem problem(task);
+  const ScatterDesign again =
+      search_over_draws(task, {problem.unscaled(found.x, 0), problem.unscaled(found.x, 1)}, slsqp(), ScatterStart::FoundOverTheseDraws);
+  CHECK(again.status == SolverStatus::Converged);
+  CHECK(std::isnan(again.value));
+  CHECK((again.x - found.x).cwiseAbs().maxCoeff() < 1e-12);  // round-off
+  CHECK(again.cycles == again.screening_cycles);
+  // Where the screening does know one, it is searched for to the end.
+  CHECK(search_over_draws(task, {0.0, 0.0}, slsqp(), ScatterStart::FoundOverTheseDraws).value == found.value);
 }
 
 TEST_CASE("A design chosen over draws beats the nominal one on fresh draws", "[optimize][design][scatter]") {

@@ -351,7 +351,7 @@ DrawSearch::Judged settle(DrawSearch& search, DesignProblem& full, ScatterDesign
 
 }  // namespace
 
-ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double>& start, const SolverOptions& options) {
+ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double>& start, const SolverOptions& options, ScatterStart start_is) {
   const Stopwatch clock;
   ScatterDesign design;
   DesignProblem full(task);
@@ -367,7 +367,16 @@ ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double
       design.x = search.descend(screening, design.x, draws, approach, Level::Start).x;
     }
     if (is_quantile && few == all) design.x = search.descend(screening, design.x, all, approach, Level::Start).x;
-    design.x = search.descend(screening, design.x, all, task.over).x;
+    const DrawSearch::Judged screened = search.descend(screening, design.x, all, task.over);
+    const bool was_found = coarse && start_is == ScatterStart::FoundOverTheseDraws;
+    if (was_found && !(search.judge_all(screening, full.nearest_design(start), all).gain_to(screened) > settled_start)) {
+      design.x = full.nearest_design(start);
+      design.modification = full.modification(design.x);
+      design.message = "no better design by the screening resolution";
+      design.seconds = clock.seconds();
+      return design;
+    }
+    design.x = screened.x;
     if (coarse) design.x = search.descend(full, design.x, all, task.over).x;
     DrawSearch::Judged found = search.report(full, design.x);
     const double exact = found.value;

@@ -31,6 +31,9 @@ struct ScatterDesign {
   double seconds{not_given};
 };
 
+/// Where the design comes from that a search begins with.
+enum class ScatterStart { Elsewhere, FoundOverTheseDraws };
+
 /// Chooses the design whose statistic over drawn scenes is least, with the same draws for every design (common random numbers): the objective is
 /// then an ordinary function of the design with exact gradients, and the same draws give the same design.
 ///
@@ -51,7 +54,10 @@ struct ScatterDesign {
 /// @param task     scenes are the load cases of the draws, see draws_of(); constraints on outputs are objective bounds with the statistic, and task.constraints is empty
 /// @param start    a design to begin with, such as the optimum without scatter, in the order of the variables [mm; parabolic_te 1/rad]
 /// @param options  max_evaluations counts designs tried
+/// @param start_is  where the start was found over these draws already, and no design is better than it by more than 1 % by the screening resolution, the search ends there: at
+///                  the start, whose `value` is not computed
 /// @throws InvalidInput as DesignProblem and settle_amounts()
-ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double>& start, const SolverOptions& options);
+ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double>& start, const SolverOptions& options,
+                                ScatterStart start_is = ScatterStart::Elsewhere);
 
 }  // namespace flankwright

@@ -88,14 +88,14 @@ class ScatterRun {
   }
 
   /// A search over draws that begins again at the design found, with a wide box, while that gains more than thousands of draws tell apart: contact on edges may hide better
-  /// designs. All searches together keep to the limits of the study.
+  /// designs. The screening resolution says whether it does. All searches together keep to the limits of the study.
   ScatterDesign search_again(const DesignTask& over, const std::vector<double>& start) const {
     constexpr int most_searches = 4;
     ScatterDesign best = search_over_draws(over, start, study_.table<OptimiseTable>().solver);
     for (int search = 1; search < most_searches && best.status == SolverStatus::Converged; ++search) {
       const SolverOptions left = left_after(best);
       if (is_spent(left)) break;
-      ScatterDesign next = search_over_draws(over, unscaled(best.x, task_), left);
+      ScatterDesign next = search_over_draws(over, unscaled(best.x, task_), left, ScatterStart::FoundOverTheseDraws);
       const bool gains = is_better(next, best), goes_on = gains && !(next.value > (1.0 - told_apart) * best.value);
       add_books(gains ? best : next, gains ? next : best);
       if (gains) best = std::move(next);
